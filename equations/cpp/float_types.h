@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// luciole::f32: the language of the equations over float, one value at a time.
+#pragma once
+#include <cmath>
+#include <cstdint>
+
+#define LUCIOLE_FN inline
+namespace luciole::f32 {
+using real = float;
+#include "equations/cpp/scalar_functions.inc"
+#include "equations/cpp/vector_types.inc"
+}  // namespace luciole::f32
+#undef LUCIOLE_FN

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The only header that asks which language this is. The other equation headers are written in the common subset of
+// C++, GLSL and HLSL: values in, values out; `select` instead of branches; constant trip counts; one return.
+//
+//   type      C++ scalar       C++ wide (16, 8 or 4 pixels)    GLSL     HLSL
+//   real      float, double    SIMD register                   float    float
+//   real2..4  struct           struct of registers             vec2..4  float2..4
+//   uint_     std::uint32_t    integer register                uint     uint
+//   mask      bool             lane mask                       bool     bool
+//
+// C++ includes one of equations/cpp/float.h, double.h or wide.h, which define the types and read every header once in a
+// namespace of their own; shaders include the headers that they need. Constants that a float cannot hold exactly are
+// written LUCIOLE_REAL(3.14159265358979), so that the double instantiation keeps its digits.
+#ifndef LUCIOLE_SHADING_LANGUAGE_H
+#define LUCIOLE_SHADING_LANGUAGE_H
+
+#if defined(__cplusplus)
+
+#if !defined(LUCIOLE_INSTANTIATING_EQUATIONS)
+#error "In C++ include equations/cpp/float.h, equations/cpp/double.h or equations/cpp/wide.h instead of single headers."
+#endif
+
+#elif defined(GL_core_profile) || defined(VULKAN) || defined(GL_es_profile)  // GLSL
+
+#define LUCIOLE_FN
+#define LUCIOLE_REAL(literal) literal
+#define real float
+#define real2 vec2
+#define real3 vec3
+#define real4 vec4
+#define uint_ uint
+#define mask bool
+#define select(condition, if_true, if_false) ((condition) ? (if_true) : (if_false))
+#define inverse_sqrt inversesqrt
+#define real_from_uint(u) float(u)
+
+#else  // HLSL
+
+#define LUCIOLE_FN
+#define LUCIOLE_REAL(literal) literal
+#define real float
+#define real2 float2
+#define real3 float3
+#define real4 float4
+#define uint_ uint
+#define mask bool
+#define select(condition, if_true, if_false) ((condition) ? (if_true) : (if_false))
+#define inverse_sqrt rsqrt
+#define real_from_uint(u) float(u)
+
+#endif
+
+#endif
