@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// One real-time frame on the CPU: the passes in order. This is the door of real_time for programs.
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/result.h"
+#include "image/image.h"
+#include "real_time/reflective_shadow_map/primary_light.h"
+#include "real_time/settings.h"
+#include "scene/scene.h"
+
+namespace luciole {
+
+// Means over the pixels that show a surface. A virtual point light with two lobes counts as two.
+struct PerPixel {
+  double diffuse = 0, glossy = 0, many = 0;
+  double total() const { return diffuse + glossy + many; }
+};
+
+struct FrameStatistics {
+  std::vector<std::pair<std::string, double>> passes_ms;  // in the order of the frame
+  double frame_ms = 0;                                    // without loading and BVH building
+  std::uint64_t virtual_point_lights = 0, many_lights = 0;
+  PerPixel listed, accepted, false_positives;  // valid if Settings::count_lights
+  double list_length_mean = 0, list_length_p99 = 0, list_length_max = 0;  // per list: (sub-region tile, depth half)
+  double listed_evaluations = 0;               // light x pixel pairs that the lists ask for
+  double evaluations_per_second = 0;           // of the culling-and-shading pass
+};
+
+struct Frame {
+  std::uint32_t width = 0, height = 0;
+  std::vector<Vec3> picture;  // linear radiance, exposure not applied
+  Image layers;               // the layers that were asked for, and the picture
+  FrameStatistics statistics;
+};
+
+// Scene, camera and lights are fixed; frames differ by their index (new ranges, offsets, and samples with jitter).
+class Renderer {
+ public:
+  // Names of the layers that `render` can give: direct, indirect, indirect_from_diffuse, indirect_from_glossy,
+  // unfiltered, albedo, normal, depth, lights_listed, lights_false; with Culling::none also predicted_variance,
+  // predicted_accepted and reference (what the roulette of `settings` is expected to do, exactly).
+  static const std::vector<std::string>& layer_names();
+
+  static Result<Renderer> create(std::shared_ptr<const Scene> scene, const Camera& camera, PrimaryLights primaries,
+                                 const Settings& settings);
+  Result<Frame> render(std::uint64_t frame_index, const std::vector<std::string>& layers = {});
+
+  void set_camera(const Camera& camera);
+  const Settings& settings() const;
+  double bvh_build_ms() const;
+
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+  ~Renderer();
+
+ private:
+  struct State;
+  explicit Renderer(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace luciole
