@@ -14,13 +14,19 @@
 #ifndef LUCIOLE_SHADING_LANGUAGE_H
 #define LUCIOLE_SHADING_LANGUAGE_H
 
+#if defined(GL_core_profile) || defined(GL_es_profile)
+#if __VERSION__ < 500  // glslang reads HLSL with the macros of GLSL, as version 500
+#define LUCIOLE_GLSL
+#endif
+#endif
+
 #if defined(__cplusplus)
 
 #if !defined(LUCIOLE_INSTANTIATING_EQUATIONS)
 #error "In C++ include equations/cpp/float.h, equations/cpp/double.h or equations/cpp/wide.h instead of single headers."
 #endif
 
-#elif defined(GL_core_profile) || defined(VULKAN) || defined(GL_es_profile)  // GLSL
+#elif defined(LUCIOLE_GLSL)
 
 #define LUCIOLE_FN
 #define LUCIOLE_REAL(literal) literal
@@ -33,6 +39,7 @@
 #define select(condition, if_true, if_false) ((condition) ? (if_true) : (if_false))
 #define inverse_sqrt inversesqrt
 #define real_from_uint(u) float(u)
+float inverse(float x) { return 1.0 / x; }  // beside GLSL's own, of matrices
 
 #else  // HLSL
 
@@ -46,6 +53,7 @@
 #define mask bool
 #define select(condition, if_true, if_false) ((condition) ? (if_true) : (if_false))
 #define inverse_sqrt rsqrt
+#define inverse(x) (1.0f / (x))
 #define real_from_uint(u) float(u)
 
 #endif
