@@ -11,6 +11,9 @@
 
 namespace luciole {
 
+// The largest side that is read or written [pixels].
+inline constexpr std::uint32_t kMaxImageSide = 16384;
+
 // Channel names follow OpenEXR: "R" "G" "B" for the picture itself, "layer.R" "layer.G" "layer.B" for a colour layer,
 // "layer.X" .. for vectors, "layer.V" for a single value. Half or full float on disk; always float here.
 struct Image {
@@ -19,10 +22,11 @@ struct Image {
   std::map<std::string, std::string> metadata;         // text attributes: settings, seed, instruction set, ...
 
   std::size_t pixel_count() const { return std::size_t(width) * height; }
-  bool has_layer(const std::string& layer) const;                  // "" is the picture
-  std::vector<Vec3> colours(const std::string& layer) const;       // R,G,B (or X,Y,Z, or V thrice) of a layer; empty if missing
-  void set_colours(const std::string& layer, const std::vector<Vec3>& pixels);
-  void set_values(const std::string& layer, const std::vector<float>& values);  // channel "layer.V"
+  bool has_layer(const std::string& layer) const;             // "" is the picture
+  std::vector<Vec3> colours(const std::string& layer) const;  // R,G,B (or X,Y,Z, or V thrice); empty if missing
+  void set_colours(const std::string& layer, const std::vector<Vec3>& pixels);   // "layer.R", .G, .B
+  void set_vectors(const std::string& layer, const std::vector<Vec3>& vectors);  // "layer.X", .Y, .Z
+  void set_values(const std::string& layer, const std::vector<float>& values);   // "layer.V"
 };
 
 }  // namespace luciole

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Figures for the difference of a picture x from a reference r. Means run over all pixels and their three channels.
+#pragma once
+#include "base/result.h"
+#include "image/flip.h"
+#include "image/image.h"
+#include "image/tone_curve.h"
+
+namespace luciole {
+
+struct Comparison {
+  double rmse = 0;                // sqrt(mean((x - r)^2))
+  double relmse = 0;              // mean((x - r)^2 / (r^2 + 0.01 mean(r)^2)); infinite against a black reference
+  double flip = 0;                // mean of flip_map over both pictures as they would be displayed, [0,1]
+  double largest_difference = 0;  // max |x - r|
+  double mean_ratio = 1;          // mean(x) / mean(r); infinite against a black reference
+};
+
+// Only FLIP depends on how the pictures are displayed; the other figures are of the linear values.
+struct ComparisonSettings {
+  float exposure = 1;  // E, multiplies both pictures
+  ToneCurve tone_curve = ToneCurve::pbr_neutral;
+  float pixels_per_degree = kFlipPixelsPerDegree;
+};
+
+// Refuses pictures of different sizes, without colour, or with values that are not finite.
+Result<Comparison> compare(const Image& picture, const Image& reference, const ComparisonSettings& settings = {});
+
+}  // namespace luciole

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image/png.h"
+
+#include <png.h>
+
+#include <cstdio>
+
+#include "image/image.h"
+#include "image/output_file.h"
+#include "image/tone_curve.h"
+
+namespace luciole {
+namespace {
+
+std::uint8_t encode_8_bit(float linear) { return static_cast<std::uint8_t>(srgb_encode(linear) * 255.0f + 0.5f); }
+
+std::vector<std::uint8_t> encode_pixels(const std::vector<Vec3>& pixels) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(pixels.size() * 3);
+  for (const Vec3& pixel : pixels) {
+    for (const float linear : {pixel.x, pixel.y, pixel.z}) bytes.push_back(encode_8_bit(linear));
+  }
+  return bytes;
+}
+
+// libpng leaves by longjmp when it fails: nothing with a destructor may live in this function.
+bool write_chunks(std::FILE* stream, const std::uint8_t* bytes, std::uint32_t width, std::uint32_t height) {
+  png_structp png =
+      png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, [](png_structp, png_const_charp) {});
+  png_infop header = png == nullptr ? nullptr : png_create_info_struct(png);
+  if (header == nullptr || setjmp(png_jmpbuf(png)) != 0) {
+    png_destroy_write_struct(&png, &header);
+    return false;
+  }
+  png_init_io(png, stream);
+  png_set_IHDR(png, header, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
+  png_set_sRGB_gAMA_and_cHRM(png, header, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_write_info(png, header);
+  for (std::uint32_t row = 0; row < height; ++row) png_write_row(png, bytes + std::size_t(row) * width * 3);
+  png_write_end(png, nullptr);
+  png_destroy_write_struct(&png, &header);
+  return true;
+}
+
+}  // namespace
+
+Status write_png(const std::vector<Vec3>& pixels, std::uint32_t width, std::uint32_t height,
+                 const std::filesystem::path& path) {
+  if (width == 0 || height == 0 || width > kMaxImageSide || height > kMaxImageSide) {
+    return cannot_write(path, "its size is not within 1 to " + std::to_string(kMaxImageSide) + " pixels a side");
+  }
+  if (pixels.size() != std::size_t(width) * height) return cannot_write(path, "the number of pixels is wrong");
+  auto file = OutputFile::create(path);
+  if (!file) return file.error();
+  const std::vector<std::uint8_t> bytes = encode_pixels(pixels);
+  if (!write_chunks(file->stream(), bytes.data(), width, height)) return cannot_write(path, "the PNG writer failed");
+  return file->commit();
+}
+
+}  // namespace luciole
