@@ -14,4 +14,20 @@ using PrimaryLights = std::vector<PunctualLight>;
 // times the area of the rectangle round the scene's bounds, seen along its direction.
 float power(const PunctualLight&, const Bounds& scene_bounds);
 
+// Radiant intensity of a point or spot light [W/sr]; glTF's squared ramp between a spot's cones (KHR_lights_punctual).
+//   direction  unit, away from the light
+Vec3 intensity_towards(const PunctualLight&, Vec3 direction);
+
+// Width of a spot's ramp, cos_inner - cos_outer, at least a millionth of the cone's 1 - cos_outer: a hard edge divides
+// by it too.
+float ramp_width(const PunctualLight& spot);
+
+// The rectangle round the scene's bounds, perpendicular to a sun's direction, through which its light enters.
+struct SunRectangle {
+  Vec3 corner;                  // [m], in front of the whole scene
+  Vec3 right, up;               // unit edges
+  float width = 0, height = 0;  // [m]; 0 for an empty scene
+};
+SunRectangle sun_rectangle(Vec3 direction, const Bounds& scene_bounds);
+
 }  // namespace luciole
