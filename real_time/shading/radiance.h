@@ -7,7 +7,7 @@ namespace luciole {
 
 // radiance = diffuse * diffuse_albedo + specular, per channel; linear Rec. 709 [W/(m^2 sr)], row-major.
 struct Radiance {
-  Plane3 diffuse;   // by a white Lambert surface with the pixel's Fresnel loss
+  Plane3 diffuse;  // by a white Lambert surface with the pixel's Fresnel loss
   Plane3 specular;
 
   void resize(std::size_t pixels);

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "real_time/light_range/light_range.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "equations/cpp/float.h"
+#include "real_time/kernels.h"
+
+namespace luciole {
+namespace {
+
+constexpr std::uint32_t kDimensionSubset = 2, kDimensionStratum = 3;
+
+std::uint32_t fold(std::uint64_t value) {
+  return static_cast<std::uint32_t>(value) ^ (static_cast<std::uint32_t>(value >> 32) * 0x9e3779b9u);
+}
+
+std::uint32_t frame_bits(const FrameKey& key, std::uint32_t dimension) {
+  return f32::random_words(fold(key.seed), fold(key.frame_index), 0u, dimension).first;
+}
+
+void copy(Vec3 from, float (&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
+
+void point_to(const float* (&to)[3], const Plane3& from) {
+  for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis].data();
+}
+
+// Lays out the subsets, then lets fill(first, step, count, entry) write 16 entries at a time, on all threads.
+template <class Emitter, class Fill>
+ReachingLights<Emitter> by_subset(std::size_t lights, std::uint32_t interleave, const Fill& fill) {
+  const std::uint32_t subsets = interleave * interleave;
+  ReachingLights<Emitter> out;
+  struct Piece {
+    std::uint32_t subset, offset;
+  };
+  std::vector<Piece> pieces;
+  std::uint32_t entries = 0;
+  for (std::uint32_t s = 0; s < subsets; ++s) {
+    const std::uint32_t count = s < lights ? static_cast<std::uint32_t>((lights - s + subsets - 1) / subsets) : 0;
+    out.begin.push_back(entries);
+    out.count.push_back(count);
+    for (std::uint32_t offset = 0; offset < count; offset += 16) pieces.push_back({s, offset});
+    entries += (count + 15) / 16 * 16;
+  }
+  out.emitters.resize(entries);
+  out.bounds.resize(entries / 16);
+  parallel_for(pieces.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Piece piece = pieces[i];
+      const std::uint32_t entry = out.begin[piece.subset] + piece.offset;
+      fill(piece.subset + piece.offset * subsets, subsets, std::min(16u, out.count[piece.subset] - piece.offset),
+           &out.emitters[entry], out.bounds[entry / 16]);
+    }
+  });
+  return out;
+}
+
+VplPlanes planes_of(const VirtualPointLights& lights) {
+  VplPlanes planes;
+  point_to(planes.position, lights.position);
+  point_to(planes.normal, lights.normal);
+  point_to(planes.geometric_normal, lights.geometric_normal);
+  point_to(planes.incident, lights.incident);
+  point_to(planes.flux, lights.flux);
+  point_to(planes.diffuse_albedo, lights.diffuse_albedo);
+  point_to(planes.f0, lights.f0);
+  planes.f90 = lights.f90.data();
+  planes.ggx_alpha = lights.ggx_alpha.data();
+  planes.area = lights.area.data();
+  planes.key = lights.key.data();
+  return planes;
+}
+
+ManyPlanes planes_of(const ManyLights& lights) {
+  ManyPlanes planes;
+  point_to(planes.position, lights.position);
+  point_to(planes.axis, lights.axis);
+  point_to(planes.intensity, lights.intensity);
+  planes.scale = lights.scale.data();
+  planes.offset = lights.offset.data();
+  planes.two_sided = lights.two_sided.data();
+  planes.squared = lights.squared.data();
+  planes.area = lights.area.data();
+  planes.key = lights.key.data();
+  return planes;
+}
+
+}  // namespace
+
+std::uint32_t subset_shift(const FrameKey& key, std::uint32_t interleave) {
+  return frame_bits(key, kDimensionSubset) % (interleave * interleave);  // n^2 is a power of two: exactly uniform
+}
+
+RangeParameters range_parameters(const Settings& settings, const Camera& camera, const FrameKey& key,
+                                 float constant_xi) {
+  RangeParameters p{};
+  p.exposure_over_delta = settings.exposure / settings.delta;
+  p.seed = fold(key.seed);
+  p.frame = fold(key.frame_index);
+  p.constant_xi = constant_xi;
+  p.stratified = settings.stratified_ranges;
+  p.stratum_shift = frame_bits(key, kDimensionStratum);
+  p.disc = settings.near_field == NearField::disc;
+  p.bounds = settings.bounds;
+  copy(camera.eye, p.eye), copy(camera.right, p.right), copy(camera.up, p.up), copy(camera.forward, p.forward);
+  return p;
+}
+
+ReachingLights<DiffuseEmitter> reach_diffuse_lobes(const VirtualPointLights& lights, const RangeParameters& parameters,
+                                                   std::uint32_t interleave, Isa isa) {
+  const VplPlanes planes = planes_of(lights);
+  return by_subset<DiffuseEmitter>(
+      lights.size(), interleave,
+      [&](std::uint32_t first, std::uint32_t step, std::uint32_t count, DiffuseEmitter* emitters, BoundBlock& bounds) {
+        LUCIOLE_FOR_ISA(isa, reach_diffuse(planes, parameters, first, step, count, emitters, bounds));
+      });
+}
+
+ReachingLights<GlossyEmitter> reach_glossy_lobes(const VirtualPointLights& lights, const RangeParameters& parameters,
+                                                 std::uint32_t interleave, Isa isa) {
+  const VplPlanes planes = planes_of(lights);
+  return by_subset<GlossyEmitter>(
+      lights.size(), interleave,
+      [&](std::uint32_t first, std::uint32_t step, std::uint32_t count, GlossyEmitter* emitters, BoundBlock& bounds) {
+        LUCIOLE_FOR_ISA(isa, reach_glossy(planes, parameters, first, step, count, emitters, bounds));
+      });
+}
+
+ReachingLights<ManyEmitter> reach_many_lights(const ManyLights& lights, const RangeParameters& parameters,
+                                              std::uint32_t interleave, Isa isa) {
+  const ManyPlanes planes = planes_of(lights);
+  return by_subset<ManyEmitter>(
+      lights.size(), interleave,
+      [&](std::uint32_t first, std::uint32_t step, std::uint32_t count, ManyEmitter* emitters, BoundBlock& bounds) {
+        LUCIOLE_FOR_ISA(isa, reach_many(planes, parameters, first, step, count, emitters, bounds));
+      });
+}
+
+}  // namespace luciole

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "real_time/shading/shading_pass.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "base/parallel.h"
+#include "real_time/shading/tile_worker.h"
+
+namespace luciole {
+namespace {
+
+void clear(Radiance& radiance, std::size_t pixels) {
+  radiance.resize(pixels);
+  for (Plane3* planes : {&radiance.diffuse, &radiance.specular})
+    for (Plane& plane : *planes) std::fill(plane.begin(), plane.end(), 0.0f);
+}
+
+void add(LightCounts& to, const LightCounts& from) {
+  to.listed += from.listed, to.evaluated += from.evaluated, to.accepted += from.accepted;
+}
+
+}  // namespace
+
+void Radiance::resize(std::size_t pixels) {
+  for (Plane3* planes : {&diffuse, &specular})
+    for (Plane& plane : *planes) plane.resize(pixels);
+}
+
+ShadingOutputs shade(const ShadingInputs& inputs) {
+  ShadingOutputs out;
+  const std::size_t pixels = inputs.geometry.pixel_count();
+  clear(out.radiance.from_diffuse, pixels);
+  clear(out.radiance.from_glossy, pixels);
+  if (!inputs.many.emitters.empty()) clear(out.radiance.from_many, pixels);
+  if (inputs.count_per_pixel) {
+    out.lights_listed.assign(pixels, 0.0f);
+    out.lights_false.assign(pixels, 0.0f);
+  }
+  const std::uint32_t side = kTileSide * inputs.settings.interleave;
+  const std::uint32_t blocks_x = (inputs.geometry.width + side - 1) / side;
+  const std::uint32_t blocks_y = (inputs.geometry.height + side - 1) / side;
+  std::mutex merging;  // sums of integers: the order of merging does not show
+  parallel_for(std::size_t(blocks_x) * blocks_y, 1, [&](std::size_t begin, std::size_t end) {
+    TileWorker worker(inputs, out);
+    for (std::size_t block = begin; block < end && !stop_requested(); ++block) {
+      worker.run_block(static_cast<std::uint32_t>(block % blocks_x), static_cast<std::uint32_t>(block / blocks_x));
+    }
+    const std::scoped_lock lock(merging);
+    add(out.diffuse, worker.diffuse), add(out.glossy, worker.glossy), add(out.many, worker.many);
+    out.pixels += worker.pixels;
+    out.culling_seconds += worker.culling_seconds, out.shading_seconds += worker.shading_seconds;
+    out.list_lengths.insert(out.list_lengths.end(), worker.list_lengths.begin(), worker.list_lengths.end());
+  });
+  return out;
+}
+
+}  // namespace luciole

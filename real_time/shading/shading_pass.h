@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pass: geometry buffer x reaching lights -> noisy radiance. Culling and shading go together, tile by tile, so that a
+// light list lives only as long as its tile is in the cache ([TH17] §6).
+#pragma once
+#include <cstdint>
+
+#include "real_time/geometry_buffer/geometry_buffer.h"
+#include "real_time/light_range/reaching_lights.h"
+#include "real_time/settings.h"
+#include "real_time/shading/radiance.h"
+
+namespace luciole {
+
+class RayScene;
+
+struct ShadingInputs {
+  const GeometryBuffer& geometry;
+  const ReachingLights<DiffuseEmitter>& diffuse;
+  const ReachingLights<GlossyEmitter>& glossy;
+  const ReachingLights<ManyEmitter>& many;
+  const Settings& settings;           // culling, tile test, ranges, interleave, resolved isa
+  std::uint32_t shift = 0;            // subset of sub-region s: (s + shift) mod n^2
+  const RayScene* shadows = nullptr;  // one shadow ray per accepted one of `many`, if given
+  bool count_per_pixel = false;       // fill lights_listed and lights_false
+};
+
+// Counts of one kind of lobe. A list belongs to one depth half of one tile.
+struct LightCounts {
+  std::uint64_t listed = 0;     // light x pixel pairs in the lists of the pixels' depth halves
+  std::uint64_t evaluated = 0;  // of those, pairs that the group test left to the shading kernel (16 lanes a group)
+  std::uint64_t accepted = 0;   // p > xi
+};
+
+struct ShadingOutputs {
+  ShadedRadiance radiance;
+  LightCounts diffuse, glossy, many;
+  std::vector<std::uint32_t> list_lengths;          // all lists, diffuse and glossy and many, unordered
+  std::uint64_t pixels = 0;                         // with a surface
+  double culling_seconds = 0, shading_seconds = 0;  // summed over threads
+  Plane lights_listed, lights_false;                // per pixel, all kinds; empty unless asked for
+};
+
+ShadingOutputs shade(const ShadingInputs& inputs);
+
+}  // namespace luciole

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one thread needs to cull and shade one tile after the other: memory that is reused, and counts.
+#pragma once
+#include <vector>
+
+#include "real_time/kernels.h"
+#include "real_time/light_culling/cull_kernel.h"
+#include "real_time/light_culling/tile.h"
+#include "real_time/shading/shade_kernel.h"
+#include "real_time/shading/shading_pass.h"
+
+namespace luciole {
+
+// The lists of one tile half, and the memory behind them.
+class ListMemory {
+ public:
+  TouchingLights& reserve(std::size_t lights);  // room for a whole subset
+  TouchingLights& lists() { return lists_; }
+
+ private:
+  AlignedVector<std::uint32_t> index_;
+  AlignedVector<float> rows_[TouchingLights::kRows];
+  TouchingLights lists_{};
+};
+
+class TileWorker {
+ public:
+  TileWorker(const ShadingInputs& inputs, ShadingOutputs& outputs) : inputs_(inputs), outputs_(outputs) {}
+
+  // All tiles of one 16n x 16n block of pixels.
+  void run_block(std::uint32_t bx, std::uint32_t by);
+
+  LightCounts diffuse, glossy, many;
+  std::vector<std::uint32_t> list_lengths;
+  std::uint64_t pixels = 0;
+  double culling_seconds = 0, shading_seconds = 0;  // of this thread; reading the tile's pixels counts as shading
+
+ private:
+  template <class Emitter>
+  void add_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset, LightCounts& counts, Radiance& radiance);
+  template <class Emitter>
+  void list_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset);
+  // The lists of all groups one after the other, as indices into the subset.
+  void list_lights_of_groups(std::uint32_t subset_lights);
+  void find_shadows(const PixelGroup& group, LightList<ManyEmitter>& list);
+  void find_shadows(const PixelGroup&, LightList<DiffuseEmitter>&) {}
+  void find_shadows(const PixelGroup&, LightList<GlossyEmitter>&) {}
+  void write(const PixelGroup& group, std::uint32_t listed, LightCounts& counts, Radiance& radiance);
+
+  const ShadingInputs& inputs_;
+  ShadingOutputs& outputs_;
+  ScreenTile tile_;
+  ListMemory halves_[2];
+  AlignedVector<std::uint32_t> group_lists_;
+  std::vector<std::uint32_t> group_begin_;  // list of group g: [group_begin_[g], group_begin_[g + 1])
+  std::vector<std::uint16_t> visible_;
+  GroupRadiance sum_;
+};
+
+}  // namespace luciole
