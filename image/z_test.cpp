@@ -38,7 +38,7 @@ struct Scores {
   }
 };
 
-void score_single_pixel(const FrameStatistics& statistics, std::size_t pixel, Scores& scores) {
+void score_single_pixel(const EstimatorStatistics& statistics, std::size_t pixel, Scores& scores) {
   const double frames = statistics.frames();
   const Colour& sum = statistics.pixel_sums()[pixel];
   const Colour& squares = statistics.pixel_squares()[pixel];
@@ -54,7 +54,7 @@ void score_single_pixel(const FrameStatistics& statistics, std::size_t pixel, Sc
 }
 
 // Fourth central moment over the squared second, from sums of powers about the reference. Infinite without noise.
-double kurtosis(const FrameStatistics::Block& block, std::size_t c, double frames) {
+double kurtosis(const EstimatorStatistics::Block& block, std::size_t c, double frames) {
   const double mean = block.sum[c] / frames, square = block.squares[c] / frames;
   const double cube = block.cubes[c] / frames, fourth = block.fourth_powers[c] / frames;
   const double second_central = square - mean * mean;
@@ -65,16 +65,16 @@ double kurtosis(const FrameStatistics::Block& block, std::size_t c, double frame
 
 // The pixels of a block may accept the same lights in the same frames, so the sum of p overstates the independent
 // events. k events give an excess kurtosis of frames / k; half of kEnoughAccepted is asked for, as it is an estimate.
-bool has_enough_events(const FrameStatistics::Block& block, double frames) {
-  if (block.accepted * frames < FrameStatistics::kEnoughAccepted) return false;
+bool has_enough_events(const EstimatorStatistics::Block& block, double frames) {
+  if (block.accepted * frames < EstimatorStatistics::kEnoughAccepted) return false;
   for (std::size_t c = 0; c < 3; ++c) {
-    if (block.random[c] && (kurtosis(block, c, frames) - 3) * FrameStatistics::kEnoughAccepted / 2 > frames)
+    if (block.random[c] && (kurtosis(block, c, frames) - 3) * EstimatorStatistics::kEnoughAccepted / 2 > frames)
       return false;
   }
   return true;
 }
 
-void score_block(const FrameStatistics::Block& block, double frames, std::uint64_t where, Scores& scores) {
+void score_block(const EstimatorStatistics::Block& block, double frames, std::uint64_t where, Scores& scores) {
   for (std::size_t c = 0; c < 3; ++c) {
     const double variance = sample_variance(block.sum[c], block.squares[c], frames);
     scores.add(z_score(block.sum[c] / frames, variance / frames + rounding_variance(block.reference[c])), where);
@@ -82,7 +82,7 @@ void score_block(const FrameStatistics::Block& block, double frames, std::uint64
 }
 
 // Each smallest block with dark pixels is stood for by the smallest block around it that has enough events.
-void score_blocks(const FrameStatistics& statistics, Scores& scores, ZTestReport& report) {
+void score_blocks(const EstimatorStatistics& statistics, Scores& scores, ZTestReport& report) {
   const auto& levels = statistics.block_levels();
   if (levels.empty()) return;
   const double frames = statistics.frames();
@@ -119,7 +119,7 @@ void judge_values(const Scores& scores, const ZTestLimits& limits, ZTestReport& 
   if (scores.ratio_count > 0) report.variance_ratio = scores.ratio_sum / static_cast<double>(scores.ratio_count);
 }
 
-void judge_picture(const FrameStatistics& statistics, ZTestReport& report) {
+void judge_picture(const EstimatorStatistics& statistics, ZTestReport& report) {
   const double frames = statistics.frames();
   double sum = 0, squares = 0, reference = 0;
   for (const double difference : statistics.picture_differences()) {
@@ -171,7 +171,7 @@ double sidak_limit(std::uint64_t values, double family_error) {
   return two_sided_normal_quantile(each);
 }
 
-ZTestReport image_z_test(const FrameStatistics& statistics, const ZTestLimits& limits) {
+ZTestReport image_z_test(const EstimatorStatistics& statistics, const ZTestLimits& limits) {
   ZTestReport report;
   if (statistics.frames() < 2 || statistics.frames() != statistics.planned_frames()) {
     report.reason = "the test needs at least two frames, and all that were planned";

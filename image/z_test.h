@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "image/frame_statistics.h"
+#include "image/estimator_statistics.h"
 
 namespace luciole {
 
@@ -33,11 +33,11 @@ struct ZTestReport {
 };
 
 // Per channel and pixel z = (mean - reference) / sqrt(predicted variance / frames + (2^-20 reference)^2); the second
-// term is the rounding of float sums, which does not shrink with frames. Dark pixels (FrameStatistics) enter as blocks,
-// with the variance that the frames show. A block is used if kEnoughAccepted lights are expected in it and the frames'
-// fourth moment agrees that so many independent events were seen; otherwise its dark pixels go to the next larger one.
-// All frames that were planned must have been added.
-ZTestReport image_z_test(const FrameStatistics& statistics, const ZTestLimits& limits = {});
+// term is the rounding of float sums, which does not shrink with frames. Dark pixels (EstimatorStatistics) enter as
+// blocks, with the variance that the frames show. A block is used if kEnoughAccepted lights are expected in it and the
+// frames' fourth moment agrees that so many independent events were seen; otherwise its dark pixels go to the next
+// larger one. All frames that were planned must have been added.
+ZTestReport image_z_test(const EstimatorStatistics& statistics, const ZTestLimits& limits = {});
 
 // z > 0 with P(|Z| > z) = tail for a standard normal Z; 0 < tail <= 1.
 double two_sided_normal_quantile(double tail);

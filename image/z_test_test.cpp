@@ -83,9 +83,9 @@ std::vector<Vec3> render(const SeenLights& pixels, const Renderer& renderer, std
   return frame;
 }
 
-FrameStatistics statistics_of(const SeenLights& pixels, const Renderer& renderer, unsigned seed) {
+EstimatorStatistics statistics_of(const SeenLights& pixels, const Renderer& renderer, unsigned seed) {
   std::mt19937 random(seed);
-  FrameStatistics statistics(expectation_of(pixels), kFrames);
+  EstimatorStatistics statistics(expectation_of(pixels), kFrames);
   for (std::uint32_t frame = 0; frame < kFrames; ++frame) statistics.add(render(pixels, renderer, random));
   return statistics;
 }
@@ -115,9 +115,9 @@ TEST(SidakLimit, keeps_the_chance_of_any_false_alarm) {
   }
 }
 
-TEST(FrameStatistics, mean_is_the_mean_of_the_frames) {
+TEST(EstimatorStatistics, mean_is_the_mean_of_the_frames) {
   const SeenLights pixels(kPixels, {{Vec3(1, 2, 3), 1.0f}});
-  FrameStatistics statistics(expectation_of(pixels), 2);
+  EstimatorStatistics statistics(expectation_of(pixels), 2);
   statistics.add(std::vector<Vec3>(kPixels, Vec3(0, 2, 8)));
   statistics.add(std::vector<Vec3>(kPixels, Vec3(1, 2, 0)));
   const Vec3 mean = statistics.mean()[17];
@@ -195,7 +195,7 @@ TEST(ZTest, rare_lights_without_pooling_would_be_rejected) {
   FrameExpectation expected = expectation_of(rare_lights());
   for (float& accepted : expected.accepted) accepted = 1;  // claims that every pixel stands for itself
   std::mt19937 random(1);
-  FrameStatistics statistics(expected, kFrames);
+  EstimatorStatistics statistics(expected, kFrames);
   for (std::uint32_t frame = 0; frame < kFrames; ++frame) statistics.add(render(rare_lights(), {}, random));
   EXPECT_FALSE(image_z_test(statistics).passed);
 }
@@ -232,7 +232,7 @@ TEST(ZTest, a_pixel_without_noise_must_be_exact) {
 }
 
 TEST(ZTest, missing_frames_and_values_that_are_no_numbers_are_rejected) {
-  FrameStatistics unfinished(expectation_of(room_with_lights()), kFrames);
+  EstimatorStatistics unfinished(expectation_of(room_with_lights()), kFrames);
   EXPECT_FALSE(image_z_test(unfinished).passed);
   Renderer broken;
   broken.finish = [](std::vector<Vec3>& frame, std::mt19937&) { frame[5].x = std::nanf(""); };
@@ -245,9 +245,12 @@ TEST(FrameExpectation, comes_from_the_layers_of_a_reference) {
   reference.set_colours("", {Vec3(1, 2, 3)});
   EXPECT_FALSE(frame_expectation(reference).has_value());
   reference.set_colours("predicted_variance", {Vec3(4, 5, 6)});
-  reference.set_values("expected_accepted", {7});
+  reference.set_values("predicted_accepted", {7});
   const auto expected = frame_expectation(reference);
   ASSERT_TRUE(expected.has_value());
+  EXPECT_EQ(expected->mean[0].y, 2);
+  reference.set_colours("reference", {Vec3(8, 9, 10)});
+  EXPECT_EQ(frame_expectation(reference)->mean[0].y, 9);
   EXPECT_EQ(expected->variance[0].z, 6);
   EXPECT_EQ(expected->accepted[0], 7);
 }

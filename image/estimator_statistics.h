@@ -22,18 +22,19 @@ struct FrameExpectation {
   std::vector<float> accepted;  // accepted lights of one frame: sum of p
 };
 
-// From a reference's picture and its layers "predicted_variance" (R, G, B) and "expected_accepted" (V).
+// From the layers of a reference: "reference" (without it, the picture), "predicted_variance" (R, G, B) and
+// "predicted_accepted" (V).
 Result<FrameExpectation> frame_expectation(const Image& reference);
 
 // Dark pixels accept lights so rarely that their mean over all frames is far from normal. They are tested together:
 // those of an 8x8 block, or of a block twice, four times, .. as wide, up to the picture.
-class FrameStatistics {
+class EstimatorStatistics {
  public:
   static constexpr std::uint32_t kSmallestBlock = 8;  // [pixels]
   static constexpr double kEnoughAccepted = 100;      // expected accepted lights in all frames
 
   // `frames`: how many will be added.
-  FrameStatistics(FrameExpectation expectation, std::uint32_t frames);
+  EstimatorStatistics(FrameExpectation expectation, std::uint32_t frames);
 
   // One frame of the estimator, width * height pixels, finite.
   void add(const std::vector<Vec3>& frame);

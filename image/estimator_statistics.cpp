@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image/frame_statistics.h"
+#include "image/estimator_statistics.h"
 
 #include <algorithm>
 #include <utility>
@@ -18,19 +18,22 @@ Colour difference(Vec3 value, Vec3 reference) {
 }  // namespace
 
 Result<FrameExpectation> frame_expectation(const Image& reference) {
-  FrameExpectation expectation{
-      reference.width, reference.height, reference.colours(""), reference.colours("predicted_variance"), {}};
-  const auto accepted = reference.channels.find("expected_accepted.V");
+  FrameExpectation expectation{reference.width,
+                               reference.height,
+                               reference.colours(reference.has_layer("reference") ? "reference" : ""),
+                               reference.colours("predicted_variance"),
+                               {}};
+  const auto accepted = reference.channels.find("predicted_accepted.V");
   if (expectation.mean.empty() || expectation.variance.empty() || accepted == reference.channels.end() ||
       accepted->second.size() != reference.pixel_count()) {
     return Error{ErrorKind::failed,
-                 "the reference lacks the picture or its layers predicted_variance and expected_accepted"};
+                 "the reference lacks the picture or its layers predicted_variance and predicted_accepted"};
   }
   expectation.accepted = accepted->second;
   return expectation;
 }
 
-FrameStatistics::FrameStatistics(FrameExpectation expectation, std::uint32_t frames)
+EstimatorStatistics::EstimatorStatistics(FrameExpectation expectation, std::uint32_t frames)
     : expectation_(std::move(expectation)), planned_frames_(frames) {
   const std::size_t count = expectation_.mean.size();
   LUCIOLE_ASSERT_EQ(count, std::size_t(expectation_.width) * expectation_.height);
@@ -48,12 +51,12 @@ FrameStatistics::FrameStatistics(FrameExpectation expectation, std::uint32_t fra
   if (std::find(dark_.begin(), dark_.end(), true) != dark_.end()) make_block_levels();
 }
 
-std::size_t FrameStatistics::smallest_block_of(std::size_t pixel) const {
+std::size_t EstimatorStatistics::smallest_block_of(std::size_t pixel) const {
   const std::size_t x = pixel % expectation_.width, y = pixel / expectation_.width;
   return y / kSmallestBlock * block_levels_.front().columns + x / kSmallestBlock;
 }
 
-void FrameStatistics::make_block_levels() {
+void EstimatorStatistics::make_block_levels() {
   for (std::uint32_t side = kSmallestBlock;; side *= 2) {
     BlockLevel level{side, (expectation_.width + side - 1) / side, (expectation_.height + side - 1) / side, {}};
     level.blocks.resize(std::size_t(level.columns) * level.rows);
@@ -70,7 +73,7 @@ void FrameStatistics::make_block_levels() {
   }
 }
 
-void FrameStatistics::add_pixel_to_blocks(std::size_t pixel) {
+void EstimatorStatistics::add_pixel_to_blocks(std::size_t pixel) {
   const std::size_t x = pixel % expectation_.width, y = pixel / expectation_.width;
   const Colour reference = colour_of(expectation_.mean[pixel]), variance = colour_of(expectation_.variance[pixel]);
   for (BlockLevel& level : block_levels_) {
@@ -84,7 +87,7 @@ void FrameStatistics::add_pixel_to_blocks(std::size_t pixel) {
   }
 }
 
-void FrameStatistics::add_to_blocks(const std::vector<Vec3>& frame) {
+void EstimatorStatistics::add_to_blocks(const std::vector<Vec3>& frame) {
   std::vector<Colour> differences(block_levels_.front().blocks.size());
   for (std::size_t i = 0; i < frame.size(); ++i) {
     if (!dark_[i]) continue;
@@ -116,7 +119,7 @@ void FrameStatistics::add_to_blocks(const std::vector<Vec3>& frame) {
   }
 }
 
-void FrameStatistics::add(const std::vector<Vec3>& frame) {
+void EstimatorStatistics::add(const std::vector<Vec3>& frame) {
   LUCIOLE_ASSERT_EQ(frame.size(), expectation_.mean.size());
   double luminance_difference = 0;
   for (std::size_t i = 0; i < frame.size(); ++i) {
@@ -132,7 +135,7 @@ void FrameStatistics::add(const std::vector<Vec3>& frame) {
   ++frames_;
 }
 
-std::vector<Vec3> FrameStatistics::mean() const {
+std::vector<Vec3> EstimatorStatistics::mean() const {
   std::vector<Vec3> mean(pixel_sums_.size());
   const double scale = frames_ == 0 ? 0.0 : 1.0 / frames_;
   for (std::size_t i = 0; i < mean.size(); ++i) {
