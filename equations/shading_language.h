@@ -39,6 +39,9 @@
 #define select(condition, if_true, if_false) ((condition) ? (if_true) : (if_false))
 #define inverse_sqrt inversesqrt
 #define real_from_uint(u) float(u)
+#define uint_from_real(x) uint(x)
+#define shift_left(bits, by) ((bits) << (by))
+#define shift_right(bits, by) ((bits) >> (by))
 float inverse(float x) { return 1.0 / x; }  // beside GLSL's own, of matrices
 
 #else  // HLSL
@@ -55,6 +58,9 @@ float inverse(float x) { return 1.0 / x; }  // beside GLSL's own, of matrices
 #define inverse_sqrt rsqrt
 #define inverse(x) (1.0f / (x))
 #define real_from_uint(u) float(u)
+#define uint_from_real(x) uint(x)
+#define shift_left(bits, by) ((bits) << (by))
+#define shift_right(bits, by) ((bits) >> (by))
 
 #endif
 
