@@ -21,7 +21,8 @@ DecodedImage decode_jpeg(std::span<const std::uint8_t> file, const std::string& 
   };
   int width = 0, height = 0, subsampling = 0, colour_space = 0;
   const auto size = static_cast<unsigned long>(file.size());
-  if (tjDecompressHeader3(decoder.get(), file.data(), size, &width, &height, &subsampling, &colour_space) != 0) broken();
+  if (tjDecompressHeader3(decoder.get(), file.data(), size, &width, &height, &subsampling, &colour_space) != 0)
+    broken();
   if (colour_space == TJCS_CMYK || colour_space == TJCS_YCCK) {
     fail("IMAGE_FEATURES_UNSUPPORTED", object, "is a CMYK JPEG; store it as RGB");
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// libpng reports errors by longjmp. Everything that owns memory therefore lives outside the frame that calls setjmp, and
-// nothing in between has a destructor.
+// libpng reports errors by longjmp. Everything that owns memory therefore lives outside the frame that calls setjmp,
+// and nothing in between has a destructor.
 #include <png.h>
 
 #include <algorithm>

@@ -9,14 +9,16 @@ namespace luciole {
 Result<Bytes> read_regular_file(const std::filesystem::path& path, std::uint64_t largest) {
   std::error_code code;
   const std::filesystem::file_status status = std::filesystem::status(path, code);
-  if (status.type() == std::filesystem::file_type::not_found) return Error{ErrorKind::failed, "no such file (IO_ERROR)"};
+  if (status.type() == std::filesystem::file_type::not_found)
+    return Error{ErrorKind::failed, "no such file (IO_ERROR)"};
   if (code) return Error{ErrorKind::failed, code.message() + " (IO_ERROR)"};
   if (status.type() != std::filesystem::file_type::regular) {
     return Error{ErrorKind::failed, "not a regular file (IO_ERROR)"};
   }
   const std::uint64_t size = std::filesystem::file_size(path, code);
   if (code) return Error{ErrorKind::failed, code.message() + " (IO_ERROR)"};
-  if (size > largest) return Error{ErrorKind::bad_scene, "larger than " + std::to_string(largest) + " bytes (IO_ERROR)"};
+  if (size > largest)
+    return Error{ErrorKind::bad_scene, "larger than " + std::to_string(largest) + " bytes (IO_ERROR)"};
   std::ifstream stream(path, std::ios::binary);
   Bytes bytes(size);
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));

@@ -9,8 +9,8 @@
 namespace luciole {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x46546c67;       // "glTF"
-constexpr std::uint32_t kJsonChunk = 0x4e4f534a;   // "JSON"
+constexpr std::uint32_t kMagic = 0x46546c67;        // "glTF"
+constexpr std::uint32_t kJsonChunk = 0x4e4f534a;    // "JSON"
 constexpr std::uint32_t kBinaryChunk = 0x004e4942;  // "BIN"
 constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 

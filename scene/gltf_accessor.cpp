@@ -14,10 +14,13 @@ namespace {
 std::uint32_t byte_size(ComponentType type) {
   switch (type) {
     case ComponentType::int8:
-    case ComponentType::uint8: return 1;
+    case ComponentType::uint8:
+      return 1;
     case ComponentType::int16:
-    case ComponentType::uint16: return 2;
-    default: return 4;
+    case ComponentType::uint16:
+      return 2;
+    default:
+      return 4;
   }
 }
 
@@ -36,7 +39,8 @@ struct Elements {
 };
 
 // The bytes of `count` elements that start at byteOffset of a view, checked to lie inside the view.
-Elements elements_in_view(Document& document, const JsonObject& object, std::uint64_t count, std::uint64_t element_bytes) {
+Elements elements_in_view(Document& document, const JsonObject& object, std::uint64_t count,
+                          std::uint64_t element_bytes) {
   const std::size_t view_index = object.required_reference("bufferView", document.count(kBufferViews));
   const BufferView view = document.buffer_view(view_index);
   const std::uint64_t offset = object.whole("byteOffset", 0);
@@ -48,7 +52,8 @@ Elements elements_in_view(Document& document, const JsonObject& object, std::uin
   const std::uint64_t end = offset + stride * (count - 1) + element_bytes;
   if (end > view.bytes.size()) {
     fail("ACCESSOR_TOO_LONG", object.label(),
-         "ends at byte " + std::to_string(end) + " of " + view.label + ", which has " + std::to_string(view.bytes.size()));
+         "ends at byte " + std::to_string(end) + " of " + view.label + ", which has " +
+             std::to_string(view.bytes.size()));
   }
   return {view.bytes.data() + offset, stride};
 }
@@ -69,21 +74,30 @@ float as_float(T value, bool normalised) {
 
 float float_at(const std::uint8_t* bytes, const AccessorShape& shape) {
   switch (shape.component_type) {
-    case ComponentType::int8: return as_float(load<std::int8_t>(bytes), shape.normalised);
-    case ComponentType::uint8: return as_float(load<std::uint8_t>(bytes), shape.normalised);
-    case ComponentType::int16: return as_float(load<std::int16_t>(bytes), shape.normalised);
-    case ComponentType::uint16: return as_float(load<std::uint16_t>(bytes), shape.normalised);
-    case ComponentType::uint32: return static_cast<float>(load<std::uint32_t>(bytes));
-    case ComponentType::float32: break;
+    case ComponentType::int8:
+      return as_float(load<std::int8_t>(bytes), shape.normalised);
+    case ComponentType::uint8:
+      return as_float(load<std::uint8_t>(bytes), shape.normalised);
+    case ComponentType::int16:
+      return as_float(load<std::int16_t>(bytes), shape.normalised);
+    case ComponentType::uint16:
+      return as_float(load<std::uint16_t>(bytes), shape.normalised);
+    case ComponentType::uint32:
+      return static_cast<float>(load<std::uint32_t>(bytes));
+    case ComponentType::float32:
+      break;
   }
   return load<float>(bytes);
 }
 
 std::uint32_t index_at(const std::uint8_t* bytes, ComponentType type) {
   switch (type) {
-    case ComponentType::uint8: return *bytes;
-    case ComponentType::uint16: return load<std::uint16_t>(bytes);
-    default: return load<std::uint32_t>(bytes);
+    case ComponentType::uint8:
+      return *bytes;
+    case ComponentType::uint16:
+      return load<std::uint16_t>(bytes);
+    default:
+      return load<std::uint32_t>(bytes);
   }
 }
 
@@ -115,7 +129,8 @@ void for_each_element(Document& document, std::size_t accessor, const AccessorSh
   const std::optional<JsonObject> indices = sparse->object("indices"), values = sparse->object("values");
   if (!indices || !values) fail("UNDEFINED_PROPERTY", sparse->label(), "lacks its indices or its values");
   const ComponentType index_type = component_type_of(*indices);
-  if (!is_unsigned_integer(index_type)) fail("VALUE_NOT_IN_LIST", indices->label(), "its indices are not unsigned integers");
+  if (!is_unsigned_integer(index_type))
+    fail("VALUE_NOT_IN_LIST", indices->label(), "its indices are not unsigned integers");
   const Elements where = elements_in_view(document, *indices, replaced, byte_size(index_type));
   const Elements what = elements_in_view(document, *values, replaced, element_bytes);
   std::int64_t previous = -1;
@@ -124,7 +139,8 @@ void for_each_element(Document& document, std::size_t accessor, const AccessorSh
     if (index >= shape.count) {
       fail("ACCESSOR_SPARSE_INDEX_OOB", indices->label(), "index " + std::to_string(index) + " is beyond the accessor");
     }
-    if (index <= previous) fail("ACCESSOR_SPARSE_INDICES_NON_INCREASING", indices->label(), "its indices do not increase");
+    if (index <= previous)
+      fail("ACCESSOR_SPARSE_INDICES_NON_INCREASING", indices->label(), "its indices do not increase");
     previous = index;
     store(index, what.first + i * what.stride);
   }
@@ -147,7 +163,8 @@ AccessorShape accessor_shape(const Document& document, std::size_t accessor) {
   shape.label = object.label();
   shape.component_type = component_type_of(object);
   shape.normalised = object.boolean("normalized", false);
-  if (shape.normalised && (shape.component_type == ComponentType::float32 || shape.component_type == ComponentType::uint32)) {
+  if (shape.normalised &&
+      (shape.component_type == ComponentType::float32 || shape.component_type == ComponentType::uint32)) {
     fail("ACCESSOR_NORMALIZED_INVALID", shape.label, "only 8- and 16-bit integers can be normalised");
   }
   shape.count = object.required_whole("count");
@@ -159,7 +176,8 @@ AccessorShape accessor_shape(const Document& document, std::size_t accessor) {
   } else if (type == "VEC2" || type == "VEC3" || type == "VEC4") {
     shape.components = static_cast<std::uint32_t>(type[3] - '0');
   } else {
-    fail("VALUE_NOT_IN_LIST", shape.label, "its type \"" + printable(type) + "\" is neither SCALAR nor VEC2, VEC3, VEC4");
+    fail("VALUE_NOT_IN_LIST", shape.label,
+         "its type \"" + printable(type) + "\" is neither SCALAR nor VEC2, VEC3, VEC4");
   }
   return shape;
 }

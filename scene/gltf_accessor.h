@@ -11,7 +11,12 @@ namespace luciole::gltf {
 
 // GL constants, as the format stores them.
 enum class ComponentType : std::uint32_t {
-  int8 = 5120, uint8 = 5121, int16 = 5122, uint16 = 5123, uint32 = 5125, float32 = 5126,
+  int8 = 5120,
+  uint8 = 5121,
+  int16 = 5122,
+  uint16 = 5123,
+  uint32 = 5125,
+  float32 = 5126,
 };
 
 struct AccessorShape {

@@ -12,16 +12,17 @@ namespace luciole::gltf {
 namespace {
 
 // What this reader honours.
-constexpr const char* kHonoured[] = {
-    "KHR_texture_transform", "KHR_materials_emissive_strength", "KHR_lights_punctual",   "KHR_materials_specular",
-    "KHR_materials_ior",     "EXT_mesh_gpu_instancing",         "KHR_mesh_quantization", "KHR_materials_pbrSpecularGlossiness"};
+constexpr const char* kHonoured[] = {"KHR_texture_transform", "KHR_materials_emissive_strength",
+                                     "KHR_lights_punctual",   "KHR_materials_specular",
+                                     "KHR_materials_ior",     "EXT_mesh_gpu_instancing",
+                                     "KHR_mesh_quantization", "KHR_materials_pbrSpecularGlossiness"};
 
 // What may be required and is left out all the same: the geometry is complete without it, only the look is plainer.
-constexpr const char* kLooksOnly[] = {
-    "KHR_materials_unlit",       "KHR_materials_variants",    "KHR_materials_transmission",
-    "KHR_materials_volume",      "KHR_materials_clearcoat",   "KHR_materials_sheen",
-    "KHR_materials_anisotropy",  "KHR_materials_iridescence", "KHR_materials_dispersion",
-    "KHR_materials_diffuse_transmission"};
+constexpr const char* kLooksOnly[] = {"KHR_materials_unlit",        "KHR_materials_variants",
+                                      "KHR_materials_transmission", "KHR_materials_volume",
+                                      "KHR_materials_clearcoat",    "KHR_materials_sheen",
+                                      "KHR_materials_anisotropy",   "KHR_materials_iridescence",
+                                      "KHR_materials_dispersion",   "KHR_materials_diffuse_transmission"};
 
 template <std::size_t N>
 bool contains(const char* const (&names)[N], const std::string& name) {
@@ -74,7 +75,8 @@ void Document::check_asset() const {
 void Document::check_extensions() {
   for (const std::string& name : strings_of(*root_, "extensionsRequired")) {
     if (!contains(kHonoured, name) && !contains(kLooksOnly, name)) {
-      fail("UNSUPPORTED_EXTENSION", "document", "requires the extension " + printable(name) + ", which is not supported");
+      fail("UNSUPPORTED_EXTENSION", "document",
+           "requires the extension " + printable(name) + ", which is not supported");
     }
   }
   for (const std::string& name : strings_of(*root_, "extensionsUsed")) {
@@ -117,7 +119,8 @@ std::span<const std::uint8_t> Document::buffer(std::size_t index) {
   if (known != buffers_.end()) return cut(known->second);
   Bytes bytes = resolve_uri(object.text("uri"), object.label(), files_);
   buffer_bytes_ += bytes.size();
-  if (buffer_bytes_ > limits_.buffer_bytes) fail("VALUE_NOT_IN_RANGE", object.label(), "all buffers are too large together");
+  if (buffer_bytes_ > limits_.buffer_bytes)
+    fail("VALUE_NOT_IN_RANGE", object.label(), "all buffers are too large together");
   return cut(buffers_.emplace(index, std::move(bytes)).first->second);
 }
 
@@ -159,7 +162,8 @@ void Document::warn(const std::string& key, const std::string& sentence) {
 void Document::charge_vertices(std::uint64_t vertices, const std::string& object) {
   vertices_ += vertices;
   if (vertices > limits_.vertices || vertices_ > limits_.vertices) {
-    fail("VALUE_NOT_IN_RANGE", object, "the scene has more than " + std::to_string(limits_.vertices) + " vertices or indices");
+    fail("VALUE_NOT_IN_RANGE", object,
+         "the scene has more than " + std::to_string(limits_.vertices) + " vertices or indices");
   }
 }
 

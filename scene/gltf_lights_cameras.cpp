@@ -26,7 +26,8 @@ PunctualLight::Kind light_kind(const JsonObject& light) {
   if (type == "point") return PunctualLight::Kind::point;
   if (type == "spot") return PunctualLight::Kind::spot;
   if (type == "directional") return PunctualLight::Kind::directional;
-  fail(type.empty() ? "UNDEFINED_PROPERTY" : "VALUE_NOT_IN_LIST", light.label(), "its type is not point, spot or directional");
+  fail(type.empty() ? "UNDEFINED_PROPERTY" : "VALUE_NOT_IN_LIST", light.label(),
+       "its type is not point, spot or directional");
 }
 
 void read_cone(const JsonObject& light, PunctualLight& result) {
@@ -70,7 +71,8 @@ void read_light_of(Document& document, const JsonObject& node, const Affine& wor
   PunctualLight light = read_light(document, JsonObject((*lights)[index], "light " + std::to_string(index)));
   if (light.name.empty()) light.name = node.text("name");
   light.position = world_from_node.translation;
-  light.direction = direction_of(-world_from_node.z, {0, 0, -1});  // lights and cameras look along -Z; scale does not count
+  light.direction =
+      direction_of(-world_from_node.z, {0, 0, -1});  // lights and cameras look along -Z; scale does not count
   scene.lights.push_back(std::move(light));
 }
 

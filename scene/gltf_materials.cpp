@@ -18,7 +18,8 @@ float unit_number(const JsonObject& object, const char* property, float fallback
 }
 
 template <std::size_t N>
-std::array<float, N> non_negative(const JsonObject& object, const char* property, const std::array<float, N>& fallback) {
+std::array<float, N> non_negative(const JsonObject& object, const char* property,
+                                  const std::array<float, N>& fallback) {
   const std::array<float, N> values = object.numbers<N>(property, fallback);
   if (std::any_of(values.begin(), values.end(), [](float value) { return value < 0; })) {
     fail("VALUE_NOT_IN_RANGE", object.label(), std::string("property \"") + property + "\" has a negative number");
@@ -38,7 +39,8 @@ void read_metallic_roughness(const JsonObject& object, TextureReader& textures, 
 }
 
 // The older KHR_materials_pbrSpecularGlossiness, where a material has nothing else: a dielectric with a free F0.
-void read_specular_glossiness(const JsonObject& object, Document& document, TextureReader& textures, Material& material) {
+void read_specular_glossiness(const JsonObject& object, Document& document, TextureReader& textures,
+                              Material& material) {
   material.base_colour = vec4(non_negative<4>(object, "diffuseFactor", {1, 1, 1, 1}));
   material.base_colour_texture = textures.slot(object, "diffuseTexture", true);
   material.metallic = 0;
@@ -46,8 +48,9 @@ void read_specular_glossiness(const JsonObject& object, Document& document, Text
   material.dielectric_f0 = vec3(non_negative<3>(object, "specularFactor", {1, 1, 1}));
   material.dielectric_f0 = min(material.dielectric_f0, Vec3(1, 1, 1));
   if (object.has("specularGlossinessTexture")) {
-    document.warn("specularGlossinessTexture", "The textures of KHR_materials_pbrSpecularGlossiness are ignored beyond the "
-                                               "diffuse one.");
+    document.warn("specularGlossinessTexture",
+                  "The textures of KHR_materials_pbrSpecularGlossiness are ignored beyond the "
+                  "diffuse one.");
   }
 }
 
@@ -56,7 +59,8 @@ void read_dielectric_reflection(const JsonObject& object, Document& document, Ma
   float f0 = 0.04f;
   if (const std::optional<JsonObject> extension = object.extension("KHR_materials_ior")) {
     const float ior = extension->number("ior", 1.5f);
-    if (ior != 0 && ior < 1) fail("VALUE_NOT_IN_RANGE", extension->label(), "property \"ior\" is neither 0 nor at least 1");
+    if (ior != 0 && ior < 1)
+      fail("VALUE_NOT_IN_RANGE", extension->label(), "property \"ior\" is neither 0 nor at least 1");
     const float ratio = (ior - 1) / (ior + 1);  // ior 0 stands for a mirror: F0 = 1
     f0 = ratio * ratio;
   }
@@ -106,7 +110,8 @@ Material read_material(Document& document, TextureReader& textures, std::size_t 
   const std::optional<JsonObject> metallic_roughness = object.object("pbrMetallicRoughness");
   if (metallic_roughness) read_metallic_roughness(*metallic_roughness, textures, material);
   read_dielectric_reflection(object, document, material);
-  if (const auto extension = object.extension("KHR_materials_pbrSpecularGlossiness"); extension && !metallic_roughness) {
+  if (const auto extension = object.extension("KHR_materials_pbrSpecularGlossiness");
+      extension && !metallic_roughness) {
     read_specular_glossiness(*extension, document, textures, material);
   }
   if (const std::optional<JsonObject> normal = object.object("normalTexture")) {

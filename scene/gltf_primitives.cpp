@@ -138,7 +138,8 @@ std::optional<Mesh> read_primitive(Document& document, const JsonObject& primiti
     document.warn("no positions", "Primitives without positions are ignored: " + primitive.label() + ".");
     return std::nullopt;
   }
-  if (primitive.has("targets")) document.warn("morph targets", "Morph targets are ignored: meshes keep their base shape.");
+  if (primitive.has("targets"))
+    document.warn("morph targets", "Morph targets are ignored: meshes keep their base shape.");
   Mesh mesh;
   read_vertices(document, *attributes, mesh);
   std::vector<std::uint32_t> corners = read_corners(document, primitive, mesh.positions.size());

@@ -38,10 +38,10 @@ std::vector<Affine> read_instances(Document& document, const JsonObject& node) {
   const std::vector<float> t = read("TRANSLATION", 3), r = read("ROTATION", 4), s = read("SCALE", 3);
   std::vector<Affine> instances(count.value_or(0));
   for (std::size_t i = 0; i < instances.size(); ++i) {
-    instances[i] = affine_from_parts(t.empty() ? Vec3(0, 0, 0) : Vec3(t[i * 3], t[i * 3 + 1], t[i * 3 + 2]),
-                                     r.empty() ? Vec4(0, 0, 0, 1) : Vec4(r[i * 4], r[i * 4 + 1], r[i * 4 + 2], r[i * 4 + 3]),
-                                     s.empty() ? Vec3(1, 1, 1) : Vec3(s[i * 3], s[i * 3 + 1], s[i * 3 + 2]),
-                                     extension->label());
+    instances[i] =
+        affine_from_parts(t.empty() ? Vec3(0, 0, 0) : Vec3(t[i * 3], t[i * 3 + 1], t[i * 3 + 2]),
+                          r.empty() ? Vec4(0, 0, 0, 1) : Vec4(r[i * 4], r[i * 4 + 1], r[i * 4 + 2], r[i * 4 + 3]),
+                          s.empty() ? Vec3(1, 1, 1) : Vec3(s[i * 3], s[i * 3 + 1], s[i * 3 + 2]), extension->label());
   }
   return instances;
 }
@@ -109,7 +109,8 @@ class SceneReader {
   std::uint32_t material(std::uint32_t index) {
     const auto [entry, is_new] = materials_.try_emplace(index, static_cast<std::uint32_t>(scene_.materials.size()));
     if (is_new) {
-      scene_.materials.push_back(index == kNoMaterial ? default_material() : read_material(document_, textures_, index));
+      scene_.materials.push_back(index == kNoMaterial ? default_material()
+                                                      : read_material(document_, textures_, index));
     }
     return entry->second;
   }

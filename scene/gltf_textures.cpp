@@ -18,10 +18,14 @@ constexpr std::uint64_t kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat =
 
 Wrap wrap_mode(const JsonObject& sampler, const char* property) {
   switch (sampler.whole(property, kRepeat)) {
-    case kRepeat: return Wrap::repeat;
-    case kClampToEdge: return Wrap::clamp_to_edge;
-    case kMirroredRepeat: return Wrap::mirrored_repeat;
-    default: fail("VALUE_NOT_IN_LIST", sampler.label(), std::string("property \"") + property + "\" is no wrap mode");
+    case kRepeat:
+      return Wrap::repeat;
+    case kClampToEdge:
+      return Wrap::clamp_to_edge;
+    case kMirroredRepeat:
+      return Wrap::mirrored_repeat;
+    default:
+      fail("VALUE_NOT_IN_LIST", sampler.label(), std::string("property \"") + property + "\" is no wrap mode");
   }
 }
 
@@ -55,12 +59,19 @@ void TextureReader::read_sampler(const JsonObject& texture_object, Texture& text
   const std::uint64_t minify = sampler.whole("minFilter", kLinearMipLinear);
   switch (minify) {
     case kNearest:
-    case kLinear: texture.mip_filter = MipFilter::none; break;
+    case kLinear:
+      texture.mip_filter = MipFilter::none;
+      break;
     case kNearestMipNearest:
-    case kLinearMipNearest: texture.mip_filter = MipFilter::nearest; break;
+    case kLinearMipNearest:
+      texture.mip_filter = MipFilter::nearest;
+      break;
     case kNearestMipLinear:
-    case kLinearMipLinear: texture.mip_filter = MipFilter::linear; break;
-    default: fail("VALUE_NOT_IN_LIST", sampler.label(), "property \"minFilter\" is no minification filter");
+    case kLinearMipLinear:
+      texture.mip_filter = MipFilter::linear;
+      break;
+    default:
+      fail("VALUE_NOT_IN_LIST", sampler.label(), "property \"minFilter\" is no minification filter");
   }
   texture.minify_linear = minify == kLinear || minify == kLinearMipNearest || minify == kLinearMipLinear;
 }
@@ -94,7 +105,8 @@ TextureSlot TextureReader::slot(const JsonObject& object, const char* property, 
     uv_set = transform->whole("texCoord", uv_set);
   }
   if (uv_set > 1) {
-    document_.warn("uv set", "Texture coordinate sets beyond the second are ignored: " + use->label() + " asks for one.");
+    document_.warn("uv set",
+                   "Texture coordinate sets beyond the second are ignored: " + use->label() + " asks for one.");
     slot.texture = -1;
     uv_set = 0;
   }

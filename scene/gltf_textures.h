@@ -29,7 +29,7 @@ class TextureReader {
 
   Document& document_;
   std::vector<Texture> textures_;
-  std::vector<std::pair<std::size_t, bool>> image_of_texture_;            // (image, sRGB)
+  std::vector<std::pair<std::size_t, bool>> image_of_texture_;  // (image, sRGB)
   std::map<std::pair<std::size_t, bool>, std::int32_t> known_;  // (texture, sRGB) to scene texture; -1: unreadable
 };
 

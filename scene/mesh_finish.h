@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From what a file says about a mesh to what Mesh promises: compact, unit normals, tangents where normal maps need them.
+// From what a file says about a mesh to what Mesh promises: compact, unit normals, tangents where normal maps need
+// them.
 #pragma once
 #include <string>
 

@@ -21,8 +21,8 @@ struct MipImage {
     std::vector<std::uint8_t> rgba;  // width * height * 4
   };
   std::vector<Level> levels;
-  bool srgb = false;        // colour channels are sRGB-encoded; alpha is always linear
-  bool has_alpha = false;   // some texel has alpha < 255
+  bool srgb = false;       // colour channels are sRGB-encoded; alpha is always linear
+  bool has_alpha = false;  // some texel has alpha < 255
 };
 
 enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
@@ -53,7 +53,7 @@ struct Material {
   Vec4 base_colour{1, 1, 1, 1};  // factor, linear
   TextureSlot base_colour_texture;
   float metallic = 1;
-  float roughness = 1;                    // glTF's perceptual roughness; alpha = roughness^2, times the texture first
+  float roughness = 1;                     // glTF's perceptual roughness; alpha = roughness^2, times the texture first
   TextureSlot metallic_roughness_texture;  // blue: metallic, green: roughness
   TextureSlot normal_texture;
   float normal_scale = 1;
@@ -73,12 +73,12 @@ struct Material {
 struct Mesh {
   std::string name;
   std::uint32_t material = 0;
-  std::vector<Vec3> positions;              // [m]
-  std::vector<Vec3> normals;                // unit; one per position, or none: flat
-  std::vector<Vec4> tangents;               // xyz unit, w = handedness +-1; one per position, or none
-  std::array<std::vector<Vec2>, 2> uv;      // one per position, or none
-  std::vector<Vec4> colours;                // linear, multiplies base colour; one per position, or none
-  std::vector<std::uint32_t> indices;       // three per triangle, counter-clockwise seen from the front
+  std::vector<Vec3> positions;          // [m]
+  std::vector<Vec3> normals;            // unit; one per position, or none: flat
+  std::vector<Vec4> tangents;           // xyz unit, w = handedness +-1; one per position, or none
+  std::array<std::vector<Vec2>, 2> uv;  // one per position, or none
+  std::vector<Vec4> colours;            // linear, multiplies base colour; one per position, or none
+  std::vector<std::uint32_t> indices;   // three per triangle, counter-clockwise seen from the front
 };
 
 // KHR_lights_punctual. Light leaves along `direction`.
@@ -86,25 +86,25 @@ struct PunctualLight {
   enum class Kind : std::uint8_t { point, spot, directional };
   Kind kind = Kind::point;
   std::string name;
-  Vec3 position{0, 0, 0};      // [m]; not for directional
-  Vec3 direction{0, 0, -1};    // unit; spot and directional
-  Vec3 intensity{1, 1, 1};     // point, spot: radiant intensity on the axis [W/sr]; directional: irradiance [W/m^2]
-  float cos_inner = 1.0f;      // spot: full intensity inside this cone
+  Vec3 position{0, 0, 0};         // [m]; not for directional
+  Vec3 direction{0, 0, -1};       // unit; spot and directional
+  Vec3 intensity{1, 1, 1};        // point, spot: radiant intensity on the axis [W/sr]; directional: irradiance [W/m^2]
+  float cos_inner = 1.0f;         // spot: full intensity inside this cone
   float cos_outer = 0.70710678f;  // spot: nothing outside; between them glTF's squared ramp
 };
 
 struct Camera {
   std::string name;
-  Vec3 eye{0, 0, 0};                        // [m]
+  Vec3 eye{0, 0, 0};                                    // [m]
   Vec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};  // orthonormal; `view` looks along -Z = forward
-  float vertical_fov = 0.9f;                // [rad]; perspective
+  float vertical_fov = 0.9f;                            // [rad]; perspective
 };
 
 // Radiance from infinitely far away: constant, or an equirectangular image (row 0 on top is +Y, centre column is -Z).
 struct Environment {
-  Vec3 radiance{0, 0, 0};                   // [W/(m^2 sr)], multiplies the image if there is one
+  Vec3 radiance{0, 0, 0};  // [W/(m^2 sr)], multiplies the image if there is one
   std::uint32_t width = 0, height = 0;
-  std::vector<Vec3> pixels;                 // width * height
+  std::vector<Vec3> pixels;  // width * height
 };
 
 struct Bounds {

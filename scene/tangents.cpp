@@ -49,8 +49,8 @@ void read_triangle(const Mesh& mesh, const TextureSlot& slot, std::size_t first,
   }
 }
 
-// Each vertex takes the orientation of the first triangle that uses it; corners of the other orientation move to a copy.
-// Returns per vertex whether its texture is upright.
+// Each vertex takes the orientation of the first triangle that uses it; corners of the other orientation move to a
+// copy. Returns per vertex whether its texture is upright.
 std::vector<bool> split_by_orientation(Mesh& mesh, const TextureSlot& slot) {
   const std::size_t vertices = mesh.positions.size();
   constexpr std::uint32_t kNone = 0xffffffffu;

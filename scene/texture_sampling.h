@@ -13,15 +13,16 @@
 namespace luciole {
 
 // log2 of the footprint of a ray cone in texels of the finest level.
-// [AM19] Akenine-Moeller et al., "Texture Level of Detail Strategies for Real-Time Ray Tracing", Ray Tracing Gems (2019),
-// Eqs. 20.2, 20.3 and 20.34 with the two logarithms joined into one:
+// [AM19] Akenine-Moeller et al., "Texture Level of Detail Strategies for Real-Time Ray Tracing", Ray Tracing Gems
+// (2019), Eqs. 20.2, 20.3 and 20.34 with the two logarithms joined into one:
 //   1/2 log2(texels per area) + log2(width / |cos|)  =  1/2 log2(texels_per_area * (width / cos)^2)
 //   uv_area_per_area    area of a triangle in texture space over its area in the world   [1/m^2]  >= 0
 //   texel_count         width * height of the finest level                               [1]      >= 1
 //   cone_width          diameter of the cone at the hit; 0: the finest level             [m]
 //   cos_at_surface      |cosine| between ray and geometric normal                        [1]
 //   returns             <= 0 where the finest level is magnified
-inline float texture_level_of_detail(float uv_area_per_area, float texel_count, float cone_width, float cos_at_surface) {
+inline float texture_level_of_detail(float uv_area_per_area, float texel_count, float cone_width,
+                                     float cos_at_surface) {
   // At grazing incidence the footprint is long and thin; 1/32 keeps an isotropic look-up from blurring to one colour.
   const float spread = cone_width / std::max(cos_at_surface, 1.0f / 32.0f);
   const float footprint = uv_area_per_area * texel_count * spread * spread;
@@ -47,9 +48,15 @@ inline std::int32_t wrapped(std::int32_t i, std::int32_t size, Wrap wrap) {
 // Reduces a coordinate so that it fits an integer, whatever it was; not-a-number becomes 0.
 inline float reduced(float u, Wrap wrap) {
   switch (wrap) {
-    case Wrap::repeat: u -= std::floor(u); break;
-    case Wrap::mirrored_repeat: u -= 2.0f * std::floor(u * 0.5f); break;
-    case Wrap::clamp_to_edge: u = std::clamp(u, 0.0f, 1.0f); break;
+    case Wrap::repeat:
+      u -= std::floor(u);
+      break;
+    case Wrap::mirrored_repeat:
+      u -= 2.0f * std::floor(u * 0.5f);
+      break;
+    case Wrap::clamp_to_edge:
+      u = std::clamp(u, 0.0f, 1.0f);
+      break;
   }
   return u >= 0.0f && u <= 2.0f ? u : 0.0f;
 }
@@ -62,7 +69,8 @@ inline Vec4 decoded(const std::uint8_t* rgba, const std::array<float, 256>& colo
   return {colour[rgba[0]], colour[rgba[1]], colour[rgba[2]], kLinearFrom8[rgba[3]]};
 }
 
-// Where a look-up falls in one level: the two columns and rows and how far between them. Nearest look-ups have x0 == x1.
+// Where a look-up falls in one level: the two columns and rows and how far between them. Nearest look-ups have x0 ==
+// x1.
 struct Footprint {
   std::int32_t x0, x1, y0, y1;
   float fx, fy;
@@ -78,9 +86,9 @@ inline Footprint footprint(const Texture& texture, const MipImage::Level& level,
   }
   // Texel centres lie at +0.5. The conversion truncates; x + 0.5 is positive.
   const auto i = static_cast<std::int32_t>(x + 0.5f) - 1, j = static_cast<std::int32_t>(y + 0.5f) - 1;
-  return {wrapped(i, width, texture.wrap_u),   wrapped(i + 1, width, texture.wrap_u),
-          wrapped(j, height, texture.wrap_v),  wrapped(j + 1, height, texture.wrap_v),
-          x - 0.5f - static_cast<float>(i),    y - 0.5f - static_cast<float>(j)};
+  return {wrapped(i, width, texture.wrap_u),  wrapped(i + 1, width, texture.wrap_u),
+          wrapped(j, height, texture.wrap_v), wrapped(j + 1, height, texture.wrap_v),
+          x - 0.5f - static_cast<float>(i),   y - 0.5f - static_cast<float>(j)};
 }
 
 inline Vec4 sample_level(const Texture& texture, const MipImage::Level& level, Vec2 uv, bool linear) {
@@ -107,7 +115,8 @@ inline Vec4 sample_texture(const Texture& texture, Vec2 uv, float lod) {
   const auto coarsest = static_cast<std::uint32_t>(image.levels.size() - 1);
   const float level = std::min(lod, static_cast<float>(coarsest));
   if (texture.mip_filter == MipFilter::nearest) {
-    return sample_level(texture, image.levels[std::min(static_cast<std::uint32_t>(level + 0.5f), coarsest)], at, linear);
+    return sample_level(texture, image.levels[std::min(static_cast<std::uint32_t>(level + 0.5f), coarsest)], at,
+                        linear);
   }
   const auto fine = static_cast<std::uint32_t>(level);
   const float blend = level - static_cast<float>(fine);
