@@ -131,79 +131,102 @@ LUCIOLE_FN real microfacet_tan_sq(real alpha, real half_step, real i) {
   return t * t;
 }
 
-// A candidate (A, B) of tight_ellipsoid, kept if its ellipsoid is smaller.
-//   a     largest A for this B
-//   b     B >= 0
-//   size  r without Fresnel, square root of lobe_size_sq  [m]
-LUCIOLE_FN BoundingEllipsoid smaller_ellipsoid(BoundingEllipsoid best, GlossyLobe lobe, real a, real b, real size) {
-  const mask valid = a > 1e-12f;
-  const real a_safe = max(a, real(1e-12f));
-  const real alpha = sqrt(a_safe / (a_safe + 2.0f * b));
-  const BoundingEllipsoid e = fitted_ellipsoid_of(lobe, alpha, size * alpha / a_safe);
-  const mask better = valid && e.r_u * e.r_v * e.r_w < best.r_u * best.r_v * best.r_w;
-  BoundingEllipsoid result = best;
-  result.centre = select(better, e.centre, best.centre);
-  result.r_u = select(better, e.r_u, best.r_u);
-  result.r_v = select(better, e.r_v, best.r_v);
-  result.r_w = select(better, e.r_w, best.r_w);
-  return result;
+// Roughness and size of a GGX distribution whose lobe contains another lobe.
+struct LobeShape {
+  real alpha;  // [1] in (0,1]
+  real size;   // r of its bound  [m]
+};
+
+// Product of the semi-axes of fitted_ellipsoid_of.
+LUCIOLE_FN real fitted_volume(GlossyLobe lobe, LobeShape shape) {
+  const BoundingEllipsoid e = fitted_ellipsoid_of(lobe, shape.alpha, shape.size);
+  return e.r_u * e.r_v * e.r_w;
 }
 
-// Ellipsoid fitted to the whole lobe: distribution, Fresnel and masking. Per cell of microfacet angles, with t the
-// squared sine, F G2/G1 <= M; a lobe of another roughness and size bounds ours if  A + 2 B t <= (alpha + (1-alpha^2)
-// t/alpha) / sqrt(M)  at both ends of every cell (linear in t), alpha*^2 = A/(A+2B), r* = r alpha*/A. Any B >= 0 is
-// valid: a few are tried, the least volume is kept. Never larger than fitted_ellipsoid.
-//   f0, f90               bounding_f0 and f90 of the surface
-//   flux_per_threshold    flux_over_threshold(E Phi, delta, xi)   [m^2 sr]
-// Costs about 4,000 operations (measured: docs/mathematics.md), once per light and frame, without a branch.
-LUCIOLE_FN BoundingEllipsoid tight_ellipsoid(GlossyLobe lobe, real f0, real f90, real flux_per_threshold) {
-  const real alpha = lobe.alpha;
-  const real alpha_sq = alpha * alpha;
+// Limits A + 2 B t <= limit(t) of tight_ellipsoid at the ends of the cells.
+struct LobeLimits {
+  real sin_sq[LUCIOLE_MICROFACET_CELLS + 1];  // t
+  real limit[LUCIOLE_MICROFACET_CELLS + 1];   // (alpha + (1 - alpha^2) t / alpha) / sqrt(M), the smaller of two cells
+  real first_scale;                           // 1 / sqrt(M) of the first cell
+  real least_scale;
+};
+
+LUCIOLE_FN LobeLimits lobe_limits(GlossyLobe lobe, real f0, real f90) {
+  const real alpha_sq = lobe.alpha * lobe.alpha;
   const real c = lobe.cos_incident;
   const real masking = sqrt(alpha_sq + (1.0f - alpha_sq) * c * c);
-  const real grazing = max(f0, f90);
   const real tan_max = (1.0f + lobe.sin_incident) / max(c, real(1e-12f));
-  const real tan_psi = tan_max / alpha;
+  const real tan_psi = tan_max / lobe.alpha;
   const real half_step = tan_psi / (1.0f + sqrt(1.0f + tan_psi * tan_psi)) * (1.0f / LUCIOLE_MICROFACET_CELLS);
-  real sin_sq[LUCIOLE_MICROFACET_CELLS + 1];
-  real scale[LUCIOLE_MICROFACET_CELLS];  // 1/sqrt(M)
-  real scale_min = 1e6f;
+  const real slope = (1.0f - alpha_sq) / lobe.alpha;
+  LobeLimits limits;
+  limits.least_scale = 1e6f;
+  limits.sin_sq[0] = 0.0f;
   MicrofacetCell cell;
   cell.cos_last = 1.0f;
   cell.sin_last = 0.0f;
-  sin_sq[0] = 0.0f;
+  real scale_before = 1e6f;
   real index = 0.0f;
   for (int j = 0; j < LUCIOLE_MICROFACET_CELLS; ++j) {
     cell.cos_first = cell.cos_last;
     cell.sin_first = cell.sin_last;
     index = index + 1.0f;
     const real tan_sq =
-        j + 1 < LUCIOLE_MICROFACET_CELLS ? microfacet_tan_sq(alpha, half_step, index) : tan_max * tan_max;
+        j + 1 < LUCIOLE_MICROFACET_CELLS ? microfacet_tan_sq(lobe.alpha, half_step, index) : tan_max * tan_max;
     cell.cos_last = inverse_sqrt(1.0f + tan_sq);
-    sin_sq[j + 1] = tan_sq * cell.cos_last * cell.cos_last;
-    cell.sin_last = sqrt(sin_sq[j + 1]);
-    scale[j] = inverse_sqrt(max(fresnel_masking_bound(lobe, f0, grazing, masking, cell), real(1e-12f)));
-    scale_min = min(scale_min, scale[j]);
+    limits.sin_sq[j + 1] = tan_sq * cell.cos_last * cell.cos_last;
+    cell.sin_last = sqrt(limits.sin_sq[j + 1]);
+    const real scale = inverse_sqrt(max(fresnel_masking_bound(lobe, f0, f90, masking, cell), real(1e-12f)));
+    limits.limit[j] = (lobe.alpha + slope * limits.sin_sq[j]) * min(scale_before, scale);
+    limits.first_scale = j == 0 ? scale : limits.first_scale;
+    limits.least_scale = min(limits.least_scale, scale);
+    scale_before = scale;
   }
+  limits.limit[LUCIOLE_MICROFACET_CELLS] =
+      (lobe.alpha + slope * limits.sin_sq[LUCIOLE_MICROFACET_CELLS]) * scale_before;
+  return limits;
+}
+
+// Ellipsoid fitted to the whole lobe: distribution, Fresnel and masking. Per cell of microfacet angles, with t the
+// squared sine, F G2/G1 <= M; the distribution of roughness alpha*^2 = A/(A+2B) and size r* = r alpha*/A bounds the
+// lobe if
+//   A + 2 B t <= (alpha + (1-alpha^2) t/alpha) / sqrt(M)
+// at both ends of every cell, as both sides are linear in t. Any B >= 0 is valid: a few are tried, the least volume is
+// kept. Never larger than fitted_ellipsoid.
+//   f0, f90               bounding_f0 and f90 of the surface
+//   flux_per_threshold    flux_over_threshold(E Phi, delta, xi)   [m^2 sr]
+// About 4,000 operations without a branch, once per light and frame: docs/mathematics.md has the measured time.
+LUCIOLE_FN BoundingEllipsoid tight_ellipsoid(GlossyLobe lobe, real f0, real f90, real flux_per_threshold) {
+  const LobeLimits limits = lobe_limits(lobe, f0, max(f0, f90));
   const real size = sqrt(lobe_size_sq(lobe, flux_per_threshold));
-  const real b_low = 0.5f * (1.0f - alpha_sq) / alpha * scale_min;
-  const real b_step = sqrt(sqrt(scale[0] / scale_min));
-  const real slope = (1.0f - alpha_sq) / alpha;
-  BoundingEllipsoid best = fitted_ellipsoid(lobe, lobe_size(lobe, f0, f90, flux_per_threshold));
+  const real b_low = 0.5f * (1.0f - lobe.alpha * lobe.alpha) / lobe.alpha * limits.least_scale;
+  const real b_step = sqrt(sqrt(limits.first_scale / limits.least_scale));
+  LobeShape best;
+  best.alpha = lobe.alpha;
+  best.size = lobe_size(lobe, f0, f90, flux_per_threshold);
+  real best_volume = fitted_volume(lobe, best);
   real b = b_low;
   real share = 1.0f;
   for (int i = 0; i < 10; ++i) {
     real a = 1e30f;
-    for (int j = 0; j < LUCIOLE_MICROFACET_CELLS; ++j) {
-      const real first = (alpha + slope * sin_sq[j]) * scale[j] - 2.0f * b * sin_sq[j];
-      const real last = (alpha + slope * sin_sq[j + 1]) * scale[j] - 2.0f * b * sin_sq[j + 1];
-      a = min(a, min(first, last));
+    for (int j = 0; j <= LUCIOLE_MICROFACET_CELLS; ++j) {
+      a = min(a, limits.limit[j] - 2.0f * b * limits.sin_sq[j]);
     }
-    best = smaller_ellipsoid(best, lobe, a * 0.99999f, b, size);
-    if (i >= 4) share = share - 0.2f;
+    const mask valid = a > 1e-12f;
+    a = max(a * 0.99999f, real(1e-12f));  // rounding
+    LobeShape shape;
+    shape.alpha = sqrt(a / (a + 2.0f * b));
+    shape.size = size * shape.alpha / a;
+    const real volume = fitted_volume(lobe, shape);
+    const mask better = valid && volume < best_volume;
+    best.alpha = select(better, shape.alpha, best.alpha);
+    best.size = select(better, shape.size, best.size);
+    best_volume = select(better, volume, best_volume);
+    // Five values from b_low up to that of the first cell, then five below b_low, the last is 0.
+    share = i < 4 ? share : share - 0.2f;
     b = i < 4 ? b * b_step : b_low * max(share, real(0.0f));
   }
-  return best;
+  return fitted_ellipsoid_of(lobe, best.alpha, best.size);
 }
 
 #endif
