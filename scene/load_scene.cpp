@@ -7,6 +7,7 @@
 
 #include "scene/file_fault.h"
 #include "scene/gltf_scene.h"
+#include "scene/obj_scene.h"
 
 namespace luciole {
 namespace {
@@ -43,15 +44,25 @@ Result<Scene> load_gltf(std::span<const std::uint8_t> file, const std::string& n
   });
 }
 
+Result<Scene> load_obj(std::span<const std::uint8_t> file, const std::string& name, const FileReader& files,
+                       const LoadLimits& limits) {
+  return guarded(name, [&] {
+    Scene scene = obj::read_scene(file, files, limits);
+    scene.name = name;
+    return scene;
+  });
+}
+
 Result<Scene> load_scene(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   const std::string extension = lower_case_extension(path);
-  if (extension != ".gltf" && extension != ".glb") {
-    return Error{ErrorKind::bad_scene, name + ": scenes are read from .gltf and .glb files"};
+  if (extension != ".gltf" && extension != ".glb" && extension != ".obj") {
+    return Error{ErrorKind::bad_scene, name + ": scenes are read from .gltf, .glb and .obj files"};
   }
   const Result<Bytes> file = read_regular_file(path, LoadLimits{}.file_bytes);
   if (!file) return Error{file.error().kind, path.string() + ": " + file.error().message};
-  return load_gltf(*file, name, files_in(path.parent_path()));
+  const auto load = extension == ".obj" ? load_obj : load_gltf;
+  return load(*file, name, files_in(path.parent_path()), LoadLimits{});
 }
 
 }  // namespace luciole

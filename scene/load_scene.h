@@ -17,5 +17,7 @@ Result<Scene> load_scene(const std::filesystem::path& path);
 // The same from memory; `name` stands for the file in messages, `files` gives what the scene refers to.
 Result<Scene> load_gltf(std::span<const std::uint8_t> file, const std::string& name, const FileReader& files,
                         const LoadLimits& limits = {});
+Result<Scene> load_obj(std::span<const std::uint8_t> file, const std::string& name, const FileReader& files,
+                       const LoadLimits& limits = {});
 
 }  // namespace luciole

@@ -66,13 +66,18 @@ Bytes decode_data_uri(const std::string& uri, const std::string& object) {
   return std::move(*bytes);
 }
 
+bool stays_below_folder(const std::string& path) {
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  return !path.empty() && path.front() != '/' && path.find('\\') == std::string::npos && !has_parent_segment(path) &&
+         std::none_of(path.begin(), path.end(), is_control);
+}
+
 std::string checked_relative_path(const std::string& uri, const std::string& object) {
   if (starts_with_scheme(uri)) fail("INVALID_URI", object, "\"" + printable(uri) + "\" is not a relative path");
   const std::string path = percent_decoded(uri);
-  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-  const bool escapes = path.empty() || path.front() == '/' || path.find('\\') != std::string::npos ||
-                       has_parent_segment(path) || std::any_of(path.begin(), path.end(), is_control);
-  if (escapes) fail("INVALID_URI", object, "\"" + printable(uri) + "\" does not name a file below the scene's folder");
+  if (!stays_below_folder(path)) {
+    fail("INVALID_URI", object, "\"" + printable(uri) + "\" does not name a file below the scene's folder");
+  }
   return path;
 }
 

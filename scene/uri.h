@@ -18,6 +18,9 @@ Bytes decode_data_uri(const std::string& uri, const std::string& object);
 // schemes, control characters. Fails with INVALID_URI, naming `object`.
 std::string checked_relative_path(const std::string& uri, const std::string& object);
 
+// Whether a path, taken as it is, names something below the folder that it starts from.
+bool stays_below_folder(const std::string& path);
+
 // The bytes behind either kind of reference; failures name `object`.
 Bytes resolve_uri(const std::string& uri, const std::string& object, const FileReader& files);
 
