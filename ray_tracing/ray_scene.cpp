@@ -6,8 +6,11 @@
 #include <cmath>
 #include <cstring>
 #include <mutex>
+#include <vector>
 
+#include "ray_tracing/alpha_filter.h"
 #include "ray_tracing/embree_version.h"
+#include "scene/surface.h"
 
 namespace luciole {
 
@@ -21,6 +24,7 @@ struct RayScene::Embree {
 
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  std::vector<AlphaFilter> filters;  // one per mesh, so that its address is what the geometry refers to
 
   Embree() = default;
   Embree(const Embree&) = delete;
@@ -128,6 +132,8 @@ Status RayScene::Embree::add_mesh(const Scene& from, std::uint32_t mesh_index) {
     std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * sizeof(Vec3));
     std::memcpy(indices, mesh.indices.data(), mesh.indices.size() / 3 * 3 * sizeof(std::uint32_t));
     rtcSetGeometryMask(geometry, 1);
+    // Only where there can be a hole: a filter costs a call per candidate hit.
+    if (can_have_holes(from, mesh)) filters[mesh_index].attach(geometry);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, mesh_index);
   }
@@ -147,7 +153,9 @@ Result<RayScene> RayScene::create(std::shared_ptr<const Scene> scene, const RayT
   made.embree_.reset(new Embree);
   Embree& embree = *made.embree_;
   if (Status opened = embree.open(options); !opened) return opened.error();
-  for (std::uint32_t i = 0; i < made.scene_->meshes.size(); ++i) {
+  const auto meshes = static_cast<std::uint32_t>(made.scene_->meshes.size());
+  for (std::uint32_t i = 0; i < meshes; ++i) embree.filters.push_back({made.scene_.get(), i});
+  for (std::uint32_t i = 0; i < meshes; ++i) {
     if (made.scene_->meshes[i].indices.size() < 3) continue;
     if (Status added = embree.add_mesh(*made.scene_, i); !added) return added.error();
   }

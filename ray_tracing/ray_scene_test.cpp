@@ -98,6 +98,40 @@ TEST(RayScene, a_ray_that_starts_on_a_large_slanted_triangle_misses_it) {
   EXPECT_GT(blocked_without_offset, 100);  // the control: without the offset the surface shadows itself
 }
 
+// A texture of 2x1 texels: the left one is a hole.
+std::shared_ptr<Scene> scene_with_hole(AlphaMode mode) {
+  auto scene = scene_of({square(-3), square(-5)});
+  auto image = std::make_shared<MipImage>();
+  image->levels = {{2, 1, {255, 255, 255, 0, 255, 255, 255, 255}}};
+  image->has_alpha = true;
+  Texture texture;
+  texture.image = image;
+  texture.magnify_linear = texture.minify_linear = false;
+  scene->textures = {texture};
+  scene->materials.resize(2);
+  scene->materials[1].alpha_mode = mode;
+  scene->materials[1].base_colour_texture.texture = 0;
+  scene->meshes[0].material = 1;
+  scene->meshes[0].uv[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  return scene;
+}
+
+TEST(RayScene, sees_through_the_holes_of_alpha_masks) {
+  for (const AlphaMode mode : {AlphaMode::mask, AlphaMode::blend, AlphaMode::opaque}) {
+    const auto rays_scene = RayScene::create(scene_with_hole(mode));
+    ASSERT_TRUE(rays_scene.has_value());
+    RayPacket rays = rays_along_minus_z(Vec3(-0.9f, 0.3f, 0), 0.11f);
+    const HitPacket hits = rays_scene->intersect(rays, Coherence::coherent);
+    for (int lane = 0; lane < kPacketRays; ++lane) rays.farthest[lane] = 4;
+    const std::uint32_t blocked = rays_scene->occluded(rays, Coherence::incoherent);
+    for (int lane = 0; lane < kPacketRays; ++lane) {
+      const bool hole = rays.origin_x[lane] < 0 && mode != AlphaMode::opaque;  // the control: the alpha is ignored
+      EXPECT_EQ(hits.mesh[lane], hole ? 1u : 0u);
+      EXPECT_EQ((blocked >> lane & 1) != 0, !hole);
+    }
+  }
+}
+
 TEST(RayScene, every_instruction_set_meets_the_same_triangles) {
   for (const char* isa : {"", "baseline", "avx2"}) {
     RayTracingOptions options;

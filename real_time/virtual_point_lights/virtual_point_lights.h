@@ -6,7 +6,10 @@
 #include <cstdint>
 
 #include "base/aligned_vector.h"
+#include "ray_tracing/ray_scene.h"
 #include "real_time/geometry_buffer/geometry_buffer.h"
+#include "real_time/reflective_shadow_map/primary_light.h"
+#include "real_time/settings.h"
 
 namespace luciole {
 
@@ -26,5 +29,11 @@ struct VirtualPointLights {
   std::size_t size() const { return key.size(); }
   void resize(std::size_t count);
 };
+
+// Sends settings.vpls photon bundles from the primary lights and leaves a light where each is reflected. Dropped are
+// those that meet nothing, carry no flux, or arrive from below the shading or the geometric normal; the others keep
+// their order and keys. Moved by settings.vpl_seed, and by the frame with settings.jitter.
+VirtualPointLights make_virtual_point_lights(const RayScene& scene, const PrimaryLights& primaries,
+                                             const Settings& settings, std::uint64_t frame_index);
 
 }  // namespace luciole
