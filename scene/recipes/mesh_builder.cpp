@@ -152,16 +152,8 @@ Mesh turned_inside_out(Mesh mesh) {
   return mesh;
 }
 
-void project_uv(Mesh& mesh, float repeats_per_metre) {
-  mesh.uv[0].resize(mesh.positions.size());
-  for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
-    const Vec3 p = mesh.positions[k] * repeats_per_metre, n = abs(mesh.normals[k]);
-    if (n.y >= n.x && n.y >= n.z) {
-      mesh.uv[0][k] = {p.x, p.z};
-    } else {
-      mesh.uv[0][k] = n.x >= n.z ? Vec2{p.z, -p.y} : Vec2{p.x, -p.y};
-    }
-  }
+void scale_uv(Mesh& mesh, float tile) {
+  for (Vec2& uv : mesh.uv[0]) uv = uv * (1 / tile);
 }
 
 void add_tangents(Mesh& mesh) {

@@ -47,9 +47,8 @@ Mesh placed(const Mesh& mesh, const Affine& world_from_mesh);
 // The other side is the front.
 Mesh turned_inside_out(Mesh mesh);
 
-// Replaces texture coordinates: each vertex looks along the axis that its normal is closest to. For walls and floors
-// whose textures are measured in metres.
-void project_uv(Mesh& mesh, float repeats_per_metre);
+// From texture coordinates in metres to repeats of a texture that is `tile` metres wide.
+void scale_uv(Mesh& mesh, float tile);
 
 // Tangents along +u for normal maps, from uv set 0; as glTF has it, the bitangent runs up the picture, against +v.
 void add_tangents(Mesh& mesh);
