@@ -10,6 +10,19 @@
 
 #include <atomic>
 
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define LUCIOLE_THREAD_SANITIZER
+#endif
+#endif
+#if defined(__SANITIZE_THREAD__) || defined(LUCIOLE_THREAD_SANITIZER)
+#include <sanitizer/tsan_interface.h>
+#else
+// TBB is not compiled with the thread sanitizer, so the sanitizer has to be told what a loop orders.
+#define __tsan_acquire(address) (void)(address)
+#define __tsan_release(address) (void)(address)
+#endif
+
 namespace luciole {
 namespace {
 
@@ -31,11 +44,16 @@ class DenormalsFlushed {
 
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
   if (count == 0) return;
+  [[maybe_unused]] char begun = 0, ended = 0;  // addresses to name the two orders by
+  __tsan_release(&begun);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain == 0 ? 1 : grain),
-                    [&body](const tbb::blocked_range<std::size_t>& range) {
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      __tsan_acquire(&begun);
                       const DenormalsFlushed scope;
                       body(range.begin(), range.end());
+                      __tsan_release(&ended);
                     });
+  __tsan_acquire(&ended);
 }
 
 void with_threads(int threads, const std::function<void()>& work) {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files that a run of frames writes: checked before anything is rendered, written whole or not at all.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "image/image.h"
+#include "image/tone_curve.h"
+
+namespace luciole {
+
+struct FrameRange {
+  std::uint64_t first = 0, last = 0;  // both are rendered
+  bool numbered = false;              // asked for by --frames: names carry the number
+};
+
+// "7" or "A-B" with A <= B.
+Result<FrameRange> parse_frame_range(const std::string& text);
+
+class OutputFiles {
+ public:
+  // Refused: endings other than .exr and .png, two equal names, "####" missing from a name of numbered frames, and
+  // whatever cannot be written. Nothing is left behind by the check.
+  static Result<OutputFiles> create(std::vector<std::filesystem::path> names, const FrameRange& frames);
+
+  bool any_exr() const;
+  const std::vector<std::filesystem::path>& names() const { return names_; }
+
+  // The picture of one frame: linear with layers and metadata as .exr; exposed, through the curve and sRGB as .png.
+  Status write(const Image& image, std::uint64_t frame, float exposure, ToneCurve curve) const;
+
+ private:
+  std::vector<std::filesystem::path> names_;
+  bool numbered_ = false;
+};
+
+// Whether a file of this name can be created: tried, and taken back.
+Status check_writable(const std::filesystem::path& path);
+
+}  // namespace luciole

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// luciole render: everything that can be refused is refused before the first ray; then the frames, one after another.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+
+#include "apps/command_line/accumulator.h"
+#include "apps/command_line/commands.h"
+#include "apps/command_line/progress.h"
+#include "apps/command_line/render_plan.h"
+#include "apps/command_line/stage.h"
+#include "apps/command_line/statistics_file.h"
+#include "apps/command_line/version.h"
+#include "base/parallel.h"
+#include "real_time/frame.h"
+#include "shot/open_shot.h"
+
+namespace luciole {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Equal pictures are equal files: no times, dates or thread counts here.
+void add_metadata(Image& image, const RenderPlan& plan, const RenderOptions& options) {
+  image.metadata["luciole.version"] = kVersion;
+  image.metadata["luciole.shot"] = options.shot;
+  image.metadata["luciole.accumulated_frames"] = std::to_string(options.accumulate);
+  for (const auto& [name, text] : settings_as_text(plan.settings)) image.metadata["luciole." + name] = text;
+  image.metadata["luciole.isa"] = to_string(*choose_isa(plan.settings.isa));
+}
+
+class Run {
+ public:
+  Run(const RenderOptions& options, RenderPlan plan)
+      : options_(options),
+        plan_(std::move(plan)),
+        progress_(options.quiet     ? Verbosity::quiet
+                  : options.verbose ? Verbosity::verbose
+                                    : Verbosity::normal) {}
+
+  Result<int> operator()() {
+    Result<Renderer> renderer = prepare();
+    if (!renderer) return stopped_or(renderer.error());
+    statistics_.bvh_ms = renderer->bvh_build_ms();
+    for (std::uint64_t index = plan_.frames.first; index <= plan_.frames.last && !stop_requested(); ++index) {
+      if (Status status = render_one(*renderer, index); !status) return stopped_or(status.error());
+    }
+    if (!options_.statistics.empty() && !statistics_.frames.empty()) {
+      if (Status status = write_text(statistics_json(statistics_), options_.statistics); !status) {
+        return status.error();
+      }
+    }
+    return stop_requested() ? interrupted() : Result<int>(0);
+  }
+
+ private:
+  Result<Renderer> prepare() {
+    progress_.step("loading " + options_.shot);
+    const Clock::time_point start = Clock::now();
+    Result<OpenedShot> opened = open_shot(plan_.shot, plan_.folders);
+    if (!opened) return opened.error();
+    if (!options_.environment.empty()) {
+      Result<Environment> sky = read_environment(options_.environment);
+      if (!sky) return sky.error();
+      opened->scene.environment = std::move(*sky);
+    }
+    if (!options_.camera.empty()) {
+      Result<Camera> camera = choose_camera(opened->scene, options_.camera);
+      if (!camera) return camera.error();
+      opened->camera = *camera;
+    }
+    if (opened->primary.empty()) opened->primary = take_strongest_lights(opened->scene);
+    statistics_.load_ms = ms_since(start);
+    tell(*opened);
+    progress_.step("building the acceleration structure");
+    return Renderer::create(std::make_shared<const Scene>(std::move(opened->scene)), opened->camera, opened->primary,
+                            plan_.settings);
+  }
+
+  void tell(const OpenedShot& opened) {
+    statistics_.shot = options_.shot;
+    statistics_.settings = plan_.settings;
+    statistics_.threads = thread_count();
+    statistics_.primary_lights = opened.primary.size();
+    for (const std::vector<std::string>* sentences : {&opened.notes, &opened.scene.warnings}) {
+      for (const std::string& sentence : *sentences) {
+        progress_.note(sentence);
+        statistics_.notes.push_back(sentence);
+      }
+    }
+  }
+
+  // One picture: a frame, or the mean of several. Interrupted, it is the mean of the complete ones, or nothing.
+  Status render_one(Renderer& renderer, std::uint64_t index) {
+    FrameAccumulator sum;
+    Image picture;
+    std::uint32_t complete = 0;
+    for (; complete < options_.accumulate; ++complete) {
+      progress_.step(fmt::format("frame {} of {}-{}, part {} of {}", index, plan_.frames.first, plan_.frames.last,
+                                 complete + 1, options_.accumulate));
+      Result<Frame> frame = renderer.render(index * options_.accumulate + complete, plan_.layers);
+      if (stop_requested()) break;  // the frame may have holes
+      if (!frame) return frame.error();
+      tell(frame->statistics);
+      statistics_.frames.emplace_back(index * options_.accumulate + complete, frame->statistics);
+      if (options_.accumulate == 1) {
+        picture = std::move(frame->layers);
+      } else {
+        sum.add(frame->layers);
+      }
+    }
+    if (complete == 0) return Done{};
+    if (options_.accumulate > 1) {
+      picture = sum.mean();
+      if (plan_.variance) sum.add_variance_layer(picture);
+    }
+    add_metadata(picture, plan_, options_);
+    picture.metadata["luciole.accumulated_frames"] = std::to_string(complete);
+    ++pictures_;
+    complete_frames_ += complete;
+    progress_.step("writing");
+    return plan_.outputs.write(picture, index, plan_.settings.exposure, plan_.tone_curve);
+  }
+
+  void tell(const FrameStatistics& frame) {
+    for (const auto& [pass, ms] : frame.passes_ms) progress_.detail(fmt::format("{:>9.2f} ms {}", ms, pass));
+    progress_.detail(
+        fmt::format("{:>9.2f} ms frame, {} lights", frame.frame_ms, frame.virtual_point_lights + frame.many_lights));
+  }
+
+  Result<int> interrupted() {
+    progress_.note(pictures_ == 0 ? std::string("interrupted before a frame was complete: nothing was written")
+                                  : fmt::format("interrupted: wrote {} picture{} from {} complete frames", pictures_,
+                                                pictures_ == 1 ? "" : "s", complete_frames_));
+    return kInterrupted;
+  }
+
+  // After Ctrl-C a pass may end early and say so; that is no failure.
+  Result<int> stopped_or(const Error& error) { return stop_requested() ? interrupted() : Result<int>(error); }
+
+  const RenderOptions& options_;
+  RenderPlan plan_;
+  Progress progress_;
+  RunStatistics statistics_;
+  std::uint64_t pictures_ = 0, complete_frames_ = 0;
+};
+
+Result<int> render(const RenderOptions& options) {
+  Result<RenderPlan> plan = make_plan(options);
+  if (!plan) return plan.error();
+  Result<int> outcome = 0;
+  with_threads(options.threads, [&] { outcome = Run(options, std::move(*plan))(); });
+  return outcome;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& program, Command& chosen) {
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = program.add_subcommand("render", "Render a shot or a scene");
+  declare_options(*command, *options);
+  command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
+}
+
+}  // namespace luciole

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/command_line/render_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "apps/command_line/folders.h"
+#include "apps/command_line/machine.h"
+#include "base/text.h"
+#include "real_time/frame.h"
+
+namespace luciole {
+namespace {
+
+// Roughly what a frame holds, per pixel and per light, measured on large frames and rounded up.
+Status check_memory(const Settings& settings, const RenderOptions& options) {
+  constexpr double kBytesPerPixel = 500, kBytesPerLayer = 40, kBytesPerVpl = 400;
+  const double pixels = double(settings.width) * settings.height;
+  const double accumulated = options.accumulate > 1 ? double(options.layers.size() + 2) * 24 : 0;
+  const double bytes = pixels * (kBytesPerPixel + kBytesPerLayer * double(options.layers.size()) + accumulated) +
+                       kBytesPerVpl * settings.vpls;
+  const double memory = static_cast<double>(physical_memory_bytes());
+  if (memory <= 0 || bytes <= memory) return Done{};
+  constexpr double kGib = 1024.0 * 1024 * 1024;
+  return Error{ErrorKind::usage,
+               fmt::format("--size {}x{} with {} VPLs needs about {:.0f} GiB of memory and this machine has {:.0f}",
+                           settings.width, settings.height, settings.vpls, bytes / kGib, memory / kGib)};
+}
+
+Status read_layers(const RenderOptions& options, RenderPlan& plan) {
+  const std::vector<std::string>& known = Renderer::layer_names();
+  for (const std::string& layer : options.layers) {
+    if (layer == "variance") {
+      plan.variance = true;
+    } else if (std::find(known.begin(), known.end(), layer) != known.end()) {
+      plan.layers.push_back(layer);
+    } else {
+      return Error{ErrorKind::usage, "--layers: '" + layer + "' is none of " + joined(known) + ", variance"};
+    }
+  }
+  if (!options.layers.empty() && !plan.outputs.any_exr()) {
+    return Error{ErrorKind::usage, "--layers needs an output that ends in .exr"};
+  }
+  if (plan.variance && options.accumulate < 2) {
+    return Error{ErrorKind::usage, "the layer variance needs --accumulate of at least 2"};
+  }
+  return Done{};
+}
+
+// Shot and command line together. Each is also tried alone, so that a fault is blamed on who made it.
+Status read_settings(const RenderOptions& options, RenderPlan& plan) {
+  if (Result<Settings> typed = settings_from({}, options.settings); !typed) return typed.error();
+  Result<Shot> shot = find_shot(options.shot, plan.folders);
+  if (!shot) return shot.error();
+  plan.shot = std::move(*shot);
+  if (Result<Settings> listed = settings_from(plan.shot.settings, {}); !listed) {
+    return Error{ErrorKind::bad_scene, options.shot + ": [settings] " + listed.error().message};
+  }
+  Result<Settings> settings = settings_from(plan.shot.settings, options.settings);
+  if (!settings) return settings.error();
+  plan.settings = *settings;
+  if (Result<Isa> isa = choose_isa(plan.settings.isa); !isa) return isa.error();
+  return check_memory(plan.settings, options);
+}
+
+Status read_outputs(const RenderOptions& options, RenderPlan& plan) {
+  if (!options.tone_curve.empty()) {
+    const std::optional<ToneCurve> curve = tone_curve_by_name(options.tone_curve);
+    if (!curve) return Error{ErrorKind::usage, "--tone-curve must be pbr-neutral or linear"};
+    plan.tone_curve = *curve;
+  }
+  if (!options.frames.empty()) {
+    const Result<FrameRange> frames = parse_frame_range(options.frames);
+    if (!frames) return frames.error();
+    plan.frames = *frames;
+  }
+  Result<OutputFiles> outputs = OutputFiles::create({options.outputs.begin(), options.outputs.end()}, plan.frames);
+  if (!outputs) return outputs.error();
+  plan.outputs = std::move(*outputs);
+  return options.statistics.empty() ? Status(Done{}) : check_writable(options.statistics);
+}
+
+}  // namespace
+
+Result<RenderPlan> make_plan(const RenderOptions& options) {
+  RenderPlan plan;
+  plan.folders = search_folders(options.scenes);
+  for (const auto read : {read_settings, read_outputs, read_layers}) {
+    if (Status status = read(options, plan); !status) return status.error();
+  }
+  const auto counts = [](const std::string& layer) { return layer == "lights_listed" || layer == "lights_false"; };
+  plan.settings.count_lights =
+      !options.statistics.empty() || std::any_of(plan.layers.begin(), plan.layers.end(), counts);
+  return plan;
+}
+
+}  // namespace luciole

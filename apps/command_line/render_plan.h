@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/command_line/output_files.h"
+#include "apps/command_line/render_options.h"
+#include "base/result.h"
+#include "image/tone_curve.h"
+#include "real_time/settings.h"
+#include "shot/find_shot.h"
+
+namespace luciole {
+
+// A run whose every part was found good, before anything heavy happened.
+struct RenderPlan {
+  Shot shot;
+  SearchFolders folders;
+  Settings settings;
+  FrameRange frames;
+  OutputFiles outputs;
+  ToneCurve tone_curve = ToneCurve::pbr_neutral;
+  std::vector<std::string> layers;  // asked of the renderer
+  bool variance = false;
+};
+
+// Checks all that can be checked before a scene is loaded: shot, settings, memory, outputs, layers.
+Result<RenderPlan> make_plan(const RenderOptions& options);
+
+}  // namespace luciole

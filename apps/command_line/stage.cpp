@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/command_line/stage.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "base/text.h"
+#include "image/exr.h"
+
+namespace luciole {
+namespace {
+
+constexpr std::size_t kMostPrimaries = 4;
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+template <class T>
+std::optional<T> parse(std::string_view text) {
+  T number{};
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (fault != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+std::optional<Vec3> parse_point(std::string_view text) {
+  const std::vector<std::string_view> parts = split(text, ',');
+  if (parts.size() != 3) return std::nullopt;
+  float axis[3];
+  for (int i = 0; i < 3; ++i) {
+    const std::optional<float> number = parse<float>(parts[static_cast<std::size_t>(i)]);
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    axis[i] = *number;
+  }
+  return Vec3(axis[0], axis[1], axis[2]);
+}
+
+std::optional<Camera> parse_camera(std::string_view text) {
+  const std::vector<std::string_view> parts = split(text, '/');
+  if (parts.size() < 2 || parts.size() > 3) return std::nullopt;
+  const std::optional<Vec3> eye = parse_point(parts[0]), target = parse_point(parts[1]);
+  const std::optional<float> degrees = parts.size() == 3 ? parse<float>(parts[2]) : 60.0f;
+  if (!eye || !target || !degrees || !(*degrees > 0 && *degrees < 180) || length(*target - *eye) <= 0) {
+    return std::nullopt;
+  }
+  return look_at(*eye, *target, *degrees * (std::numbers::pi_v<float> / 180));
+}
+
+}  // namespace
+
+Result<Camera> choose_camera(const Scene& scene, const std::string& text) {
+  std::vector<std::string> names;
+  for (const Camera& camera : scene.cameras) {
+    if (camera.name == text) return camera;
+    names.push_back(std::to_string(names.size()) + (camera.name.empty() ? "" : " '" + camera.name + "'"));
+  }
+  const std::optional<std::size_t> index = parse<std::size_t>(text);
+  if (index && *index < scene.cameras.size()) return scene.cameras[*index];
+  if (const std::optional<Camera> camera = parse_camera(text)) return *camera;
+  return Error{ErrorKind::usage,
+               "--camera must be x,y,z/x,y,z/degrees (eye, target, vertical field of view)" +
+                   (names.empty() ? ": the scene has no cameras" : " or one of the scene's cameras: " + joined(names)) +
+                   "; not '" + text + "'"};
+}
+
+PrimaryLights take_strongest_lights(Scene& scene) {
+  const Bounds bounds = scene.bounds();
+  std::stable_sort(scene.lights.begin(), scene.lights.end(),
+                   [&](const PunctualLight& a, const PunctualLight& b) { return power(a, bounds) > power(b, bounds); });
+  const auto end = scene.lights.begin() + static_cast<std::ptrdiff_t>(std::min(kMostPrimaries, scene.lights.size()));
+  PrimaryLights primaries(scene.lights.begin(), end);
+  scene.lights.erase(scene.lights.begin(), end);
+  return primaries;
+}
+
+Result<Environment> read_environment(const std::filesystem::path& path) {
+  const Result<Image> image = read_exr(path);
+  if (!image) return image.error();
+  Environment sky{Vec3(1, 1, 1), image->width, image->height, image->colours("")};
+  if (sky.pixels.empty()) return Error{ErrorKind::failed, path.string() + ": has no colour to light with"};
+  const auto unusable = [](Vec3 radiance) {
+    return !(std::isfinite(radiance.x + radiance.y + radiance.z) && radiance.x >= 0 && radiance.y >= 0 &&
+             radiance.z >= 0);
+  };
+  if (std::any_of(sky.pixels.begin(), sky.pixels.end(), unusable)) {
+    return Error{ErrorKind::failed, path.string() + ": a sky needs finite values that are not negative"};
+  }
+  return sky;
+}
+
+}  // namespace luciole

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Between a shot and the renderer: which camera, which lights are primary, which sky.
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "base/result.h"
+#include "real_time/reflective_shadow_map/primary_light.h"
+#include "scene/scene.h"
+
+namespace luciole {
+
+// A camera of the scene by name or index (from 0), or "eye/target/degrees" with "x,y,z" in metres and the vertical
+// field of view; "/degrees" may be left out.
+Result<Camera> choose_camera(const Scene& scene, const std::string& text);
+
+// Takes the four strongest lights out of the scene: those that get virtual point lights and shadows when the shot lists
+// no primary lights. The others stay and are many lights.
+PrimaryLights take_strongest_lights(Scene& scene);
+
+// A sky from an equirectangular OpenEXR picture.
+Result<Environment> read_environment(const std::filesystem::path& path);
+
+}  // namespace luciole

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shot/open_shot.h"
+
+#include <algorithm>
+
+#include "scene/default_view.h"
+#include "scene/load_scene.h"
+#include "scene/recipes/recipes.h"
+
+namespace luciole {
+namespace {
+
+bool is_black(Vec3 colour) { return colour.x <= 0 && colour.y <= 0 && colour.z <= 0; }
+
+bool has_light(const Scene& scene, const std::vector<PunctualLight>& primary) {
+  const auto emits = [&scene](const Mesh& mesh) {
+    return !mesh.indices.empty() && !is_black(scene.materials[mesh.material].emission);
+  };
+  return !primary.empty() || !scene.lights.empty() || !is_black(scene.environment.radiance) ||
+         std::any_of(scene.meshes.begin(), scene.meshes.end(), emits);
+}
+
+Result<Scene> load(const Shot& shot, const SearchFolders& folders) {
+  if (is_recipe_address(shot.scene)) return make_recipe_from_address(shot.scene);
+  const Result<std::filesystem::path> path = find_scene_file(shot.scene, folders);
+  if (!path) return path.error();
+  return load_scene(*path);
+}
+
+}  // namespace
+
+PunctualLight default_sun() {
+  PunctualLight sun;
+  sun.kind = PunctualLight::Kind::directional;
+  sun.name = "default sun";
+  sun.direction = normalize(Vec3(0.45f, -1.0f, -0.35f));
+  sun.intensity = Vec3(3.0f, 2.8f, 2.5f);
+  return sun;
+}
+
+Vec3 default_sky_radiance() { return Vec3(0.25f, 0.32f, 0.45f); }
+
+void scale_scene(Scene& scene, float metres_per_unit) {
+  if (metres_per_unit == 1) return;
+  for (Mesh& mesh : scene.meshes) {
+    for (Vec3& position : mesh.positions) position = position * metres_per_unit;
+  }
+  for (PunctualLight& light : scene.lights) light.position = light.position * metres_per_unit;
+  for (Camera& camera : scene.cameras) camera.eye = camera.eye * metres_per_unit;
+}
+
+bool matches_pattern(std::string_view text, std::string_view pattern) {
+  // Greedy with one restart point: only the last star ever needs to take more.
+  std::size_t at = 0, in_pattern = 0, star = std::string_view::npos, star_at = 0;
+  while (at < text.size()) {
+    if (in_pattern < pattern.size() && pattern[in_pattern] == '*') {
+      star = in_pattern++, star_at = at;
+    } else if (in_pattern < pattern.size() && (pattern[in_pattern] == '?' || pattern[in_pattern] == text[at])) {
+      ++in_pattern, ++at;
+    } else if (star != std::string_view::npos) {
+      in_pattern = star + 1, at = ++star_at;
+    } else {
+      return false;
+    }
+  }
+  while (in_pattern < pattern.size() && pattern[in_pattern] == '*') ++in_pattern;
+  return in_pattern == pattern.size();
+}
+
+Status override_materials(Scene& scene, const std::vector<MaterialOverride>& overrides) {
+  for (const MaterialOverride& replaced : overrides) {
+    bool found = false;
+    for (Material& material : scene.materials) {
+      if (!matches_pattern(material.name, replaced.name_pattern)) continue;
+      found = true;
+      if (replaced.ggx_alpha) material.ggx_alpha_override = *replaced.ggx_alpha;
+      if (replaced.metallic) material.metallic_override = *replaced.metallic;
+    }
+    if (!found) {
+      return Error{ErrorKind::bad_scene, "[[materials]] name '" + replaced.name_pattern + "' matches none of the " +
+                                             std::to_string(scene.materials.size()) + " materials of the scene"};
+    }
+  }
+  return Done{};
+}
+
+Result<Scene> load_shot_scene(const Shot& shot, const SearchFolders& folders) {
+  Result<Scene> scene = load(shot, folders);
+  if (!scene) return scene.error();
+  scale_scene(*scene, shot.scale);
+  if (Status status = override_materials(*scene, shot.materials); !status) {
+    return Error{status.error().kind, shot.scene + ": " + status.error().message};
+  }
+  return scene;
+}
+
+Result<OpenedShot> open_shot(const Shot& shot, const SearchFolders& folders) {
+  Result<Scene> loaded = load_shot_scene(shot, folders);
+  if (!loaded) return loaded.error();
+  OpenedShot opened{std::move(*loaded), {}, shot.primary, {}};
+  Scene& scene = opened.scene;
+  if (scene.triangle_count() == 0) return Error{ErrorKind::bad_scene, shot.scene + ": the scene has no triangle"};
+  if (shot.environment) scene.environment = Environment{*shot.environment, 0, 0, {}};
+  if (!has_light(scene, shot.primary)) {
+    scene.lights.push_back(default_sun());
+    scene.environment.radiance = default_sky_radiance();
+    opened.notes.push_back(shot.scene + ": has no light; a default sun and sky light it");
+  }
+  if (shot.camera) {
+    opened.camera = *shot.camera;
+  } else if (!scene.cameras.empty()) {
+    opened.camera = scene.cameras.front();
+  } else {
+    opened.camera = framing_camera(scene);
+    opened.notes.push_back(shot.scene + ": has no camera; a default one frames it");
+  }
+  return opened;
+}
+
+}  // namespace luciole

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Loads what a shot names and makes it ready to render: in metres, with its materials replaced, seen and lit.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "scene/scene.h"
+#include "shot/find_shot.h"
+#include "shot/shot.h"
+
+namespace luciole {
+
+struct OpenedShot {
+  Scene scene;  // world space, metres; at least one triangle
+  Camera camera;
+  std::vector<PunctualLight> primary;  // as the shot lists them; empty: to be chosen among scene.lights
+  std::vector<std::string> notes;      // one sentence per default that was filled in
+};
+
+// The scene that a shot names: in metres, with its materials replaced; it may lack triangles, lights and cameras.
+Result<Scene> load_shot_scene(const Shot& shot, const SearchFolders& folders);
+
+// A shot without camera gets the scene's first one, or one that frames the scene; without any light (primary, punctual,
+// emissive, sky) the sun and the sky below. Both are notes. A scene without a triangle is refused.
+Result<OpenedShot> open_shot(const Shot& shot, const SearchFolders& folders);
+
+// The light of a scene that has none: late morning, from the left behind a viewer who looks along -Z.
+PunctualLight default_sun();  // irradiance (3.0, 2.8, 2.5) W/m^2
+Vec3 default_sky_radiance();  // (0.25, 0.32, 0.45) W/(m^2 sr)
+
+// Moves positions of meshes, lights and cameras from file units to metres. Light units stay as they are.
+void scale_scene(Scene& scene, float metres_per_unit);
+
+// Refused if a pattern matches no material: a misspelt name must not pass silently.
+Status override_materials(Scene& scene, const std::vector<MaterialOverride>& overrides);
+
+// "*" stands for any text, "?" for any character.
+bool matches_pattern(std::string_view text, std::string_view pattern);
+
+}  // namespace luciole

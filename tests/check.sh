@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# What ./do check runs: unit tests under the address and undefined-behaviour sanitizers and under the thread sanitizer, a
+# planted race, two minutes of fuzzing per target, and the format of all sources. Every part runs; any failure fails.
+#   LUCIOLE_FUZZ_SECONDS   time per fuzz target, 120 by default
+set -uo pipefail
+cd "$(dirname "$0")/.." || exit
+
+failures=()
+launcher=()
+command -v ccache > /dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+# -O1: sanitized code is slow, unoptimised sanitized code is slower, and both compilers are exercised by the project.
+common=(-G Ninja --log-level=WARNING "${launcher[@]}" -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14
+  -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1" -DLUCIOLE_ASSERTIONS=ON)
+# Address space randomisation of new kernels leaves too little room for the thread sanitizer's shadow.
+steady=()
+setarch "$(uname -m)" -R true 2> /dev/null && steady=(setarch "$(uname -m)" -R)
+export LLVM_SYMBOLIZER_PATH=${LLVM_SYMBOLIZER_PATH:-/usr/bin/llvm-symbolizer-14}
+export ASAN_SYMBOLIZER_PATH=$LLVM_SYMBOLIZER_PATH TSAN_SYMBOLIZER_PATH=$LLVM_SYMBOLIZER_PATH
+
+part() {
+  local name=$1 start=$SECONDS
+  shift
+  echo "== $name"
+  if "$@"; then echo "== $name: passed in $((SECONDS - start)) s"; else
+    echo "== $name: FAILED after $((SECONDS - start)) s"
+    failures+=("$name")
+  fi
+}
+
+unit_tests() {
+  local folder=$1
+  cmake --build "$folder" > "$folder/build.log" 2>&1 || { tail -n 60 "$folder/build.log"; return 1; }
+  "${steady[@]}" ctest --test-dir "$folder" -L unit --no-tests=error --output-on-failure > "$folder/tests.log" 2>&1 ||
+    { tail -n 200 "$folder/tests.log"; return 1; }
+  tail -n 6 "$folder/tests.log"
+}
+
+address() {
+  cmake -S . -B build-address "${common[@]}" -DLUCIOLE_SANITIZE=address,undefined || return 1
+  ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 \
+    unit_tests build-address
+}
+
+thread() {
+  cmake -S . -B build-thread "${common[@]}" -DLUCIOLE_SANITIZE=thread || return 1
+  TSAN_OPTIONS="suppressions=$PWD/tests/thread_sanitizer.supp halt_on_error=1" unit_tests build-thread
+}
+
+# The suppressions must not hide a race of ours.
+planted_race() {
+  local log=build-thread/planted_race.log
+  TSAN_OPTIONS="suppressions=$PWD/tests/thread_sanitizer.supp exitcode=66" \
+    "${steady[@]}" build-thread/tests/planted_race > "$log" 2>&1
+  local status=$?
+  if ((status == 66)) && grep -q 'data race' "$log"; then return 0; fi
+  echo "the planted race was not reported (exit code $status)"
+  cat "$log"
+  return 1
+}
+
+# Each target starts from its corpus and from the samples of shared scenes, and must not find anything.
+fuzz() {
+  local seconds=${LUCIOLE_FUZZ_SECONDS:-120} target name found=0
+  cmake -S . -B build-fuzz "${common[@]}" -DLUCIOLE_FUZZERS=ON -DLUCIOLE_TESTS=OFF || return 1
+  cmake --build build-fuzz --target fuzzers > build-fuzz/build.log 2>&1 || { tail -n 60 build-fuzz/build.log; return 1; }
+  for target in build-fuzz/tests/fuzz/*_fuzzer; do
+    [[ -x $target ]] || continue
+    found=1
+    name=$(basename "$target")
+    mkdir -p "build-fuzz/corpus/$name"
+    local seeds=("build-fuzz/corpus/$name")
+    [[ -d tests/fuzz/corpus/$name ]] && seeds+=("tests/fuzz/corpus/$name")
+    "$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=4096 -print_final_stats=0 \
+      -artifact_prefix="build-fuzz/$name-" "${seeds[@]}" > "build-fuzz/$name.log" 2>&1 ||
+      { tail -n 60 "build-fuzz/$name.log"; return 1; }
+    echo "$name: $(tail -n 1 "build-fuzz/$name.log")"
+  done
+  ((found)) || { echo "no fuzz target was built"; return 1; }
+}
+
+formatted() {
+  local wrong
+  wrong=$(find apps base benchmarks equations examples image offline ray_tracing real_time scene shot tests \
+    \( -name '*.h' -o -name '*.cpp' \) -print0 2> /dev/null |
+    xargs -0 clang-format --dry-run --Werror 2>&1 | grep -o '^[^:]*' | sort -u)
+  [[ -z $wrong ]] || { echo "not formatted (./do format mends it):"; echo "$wrong"; return 1; }
+}
+
+part "source format" formatted
+part "address and undefined-behaviour sanitizers" address
+part "thread sanitizer" thread
+part "planted race" planted_race
+part "fuzzing" fuzz
+
+if ((${#failures[@]})); then
+  printf 'check failed: %s\n' "${failures[@]}"
+  exit 1
+fi
+echo "check passed in $((SECONDS / 60)) min"
