@@ -2,9 +2,11 @@
 # The front half of the frame: everything up to lights and pixels that can be shaded.
 luciole_room(real_time_front
   SOURCES
+    direct_light/direct_light.cpp
     geometry_buffer/geometry_buffer.cpp
     geometry_buffer/geometry_buffer_pass.cpp
     geometry_buffer/sky.cpp
+    many_lights/many_lights.cpp
     reflective_shadow_map/cell_partition.cpp
     reflective_shadow_map/direction_maps.cpp
     reflective_shadow_map/light_map.cpp
@@ -12,5 +14,6 @@ luciole_room(real_time_front
     reflective_shadow_map/reflective_shadow_map.cpp
     virtual_point_lights/virtual_point_lights.cpp
   LINK luciole_ray_tracing luciole_scene luciole_settings luciole_base)
+luciole_isa_sources(luciole_real_time_front direct_light/direct_light_kernel.cpp)
 
 luciole_test(light_map_test SOURCES reflective_shadow_map/light_map_test.cpp LINK luciole_real_time_front)

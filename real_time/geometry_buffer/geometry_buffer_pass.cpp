@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::uint32_t kBlock = 16;  // pixels per side of the unit of work: 16 packets, a few textures in the cache
 constexpr std::uint32_t kNoMaterial = 0xffffffffu;
+constexpr std::uint32_t kDimensionSubPixel = 6;
 
 // The plane of pixels at distance 1 in front of the eye. Directions are not unit: their part along `forward` is 1, so
 // that distances along them are depths.
@@ -115,7 +116,7 @@ Vec2 jittered_sub_pixel(std::uint64_t seed, std::uint64_t frame) {
   // The plane's additive recurrence with the least discrepancy: steps 1/g and 1/g^2, g^3 = g + 1 [Roberts 2018].
   // In 32-bit fixed point, so that no frame is too late for it.
   constexpr std::uint32_t kStepX = 3242174889u, kStepY = 2447445414u;
-  const f32::RandomWords start = f32::random_words(folded(seed), 0, 0, 0);
+  const f32::RandomWords start = f32::random_words(folded(seed), 0, 0, kDimensionSubPixel);
   const auto step = static_cast<std::uint32_t>(frame);
   const auto unit = [](std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; };
   return {unit(start.first + step * kStepX), unit(start.second + step * kStepY)};

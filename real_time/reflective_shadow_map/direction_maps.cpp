@@ -38,7 +38,7 @@ Vec3 cone_direction(Vec2 point, float cos_outer) {
   return {azimuth.x * sine, azimuth.y * sine, 1 - fall};
 }
 
-Frame frame_around(Vec3 axis) {
+Basis frame_around(Vec3 axis) {
   // From the world axis that is farthest from this one, so that the cross product is never short.
   const Vec3 size = abs(axis);
   Vec3 far_axis(0, 0, 1);

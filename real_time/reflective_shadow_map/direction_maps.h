@@ -20,10 +20,10 @@ Vec3 octahedral_direction(Vec2 point);
 Vec3 cone_direction(Vec2 point, float cos_outer);
 
 // Two unit vectors perpendicular to a unit vector and to each other; right-handed: cross(right, up) = axis.
-struct Frame {
+struct Basis {
   Vec3 right, up, axis;
   Vec3 world(Vec3 local) const { return right * local.x + up * local.y + axis * local.z; }
 };
-Frame frame_around(Vec3 axis);
+Basis frame_around(Vec3 axis);
 
 }  // namespace luciole

@@ -32,7 +32,7 @@ class LightMap {
 
  private:
   PunctualLight light_;
-  Frame frame_;
+  Basis frame_;
   SunRectangle rectangle_;
   CellPartition cells_;
   float solid_angle_ = 0;    // of one texel [sr]; 0 for a sun

@@ -143,7 +143,7 @@ TEST(SunMap, covers_the_bounds_and_starts_outside_them) {
     const TexelRay ray = map.ray(i, centre(i));
     EXPECT_EQ(length(ray.direction - sun.direction), 0);
     EXPECT_LT(dot(ray.origin - kHall.centre(), sun.direction), 0);
-    const Frame frame = frame_around(sun.direction);
+    const Basis frame = frame_around(sun.direction);
     across.grow(Vec3(dot(ray.origin, frame.right), dot(ray.origin, frame.up), 0));
   }
   const SunRectangle rectangle = sun_rectangle(sun.direction, kHall);

@@ -12,7 +12,29 @@ namespace {
 // Rec. 709 luminance of a linear colour.
 float luminance(Vec3 rgb) { return dot(rgb, Vec3(0.2126f, 0.7152f, 0.0722f)); }
 
+bool equal(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+bool equal(const PunctualLight& a, const PunctualLight& b) {
+  return a.kind == b.kind && equal(a.position, b.position) && equal(a.direction, b.direction) &&
+         equal(a.intensity, b.intensity) && a.cos_inner == b.cos_inner && a.cos_outer == b.cos_outer;
+}
+
 }  // namespace
+
+std::vector<std::uint32_t> other_lights(const Scene& scene, const PrimaryLights& primaries) {
+  std::vector<std::uint32_t> others;
+  std::vector<bool> matched(primaries.size(), false);
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+    std::size_t p = 0;
+    while (p < primaries.size() && (matched[p] || !equal(primaries[p], scene.lights[i]))) ++p;
+    if (p < primaries.size()) {
+      matched[p] = true;
+    } else {
+      others.push_back(i);
+    }
+  }
+  return others;
+}
 
 float ramp_width(const PunctualLight& spot) {
   return std::max({spot.cos_inner - spot.cos_outer, 1e-6f * (1 - spot.cos_outer), 1e-12f});
@@ -44,7 +66,7 @@ float power(const PunctualLight& light, const Bounds& scene_bounds) {
 }
 
 SunRectangle sun_rectangle(Vec3 direction, const Bounds& scene_bounds) {
-  const Frame frame = frame_around(direction);
+  const Basis frame = frame_around(direction);
   SunRectangle rectangle;
   rectangle.right = frame.right, rectangle.up = frame.up;
   if (!(scene_bounds.low.x <= scene_bounds.high.x)) return rectangle;

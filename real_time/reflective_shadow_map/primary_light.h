@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Door: the lights that get a reflective shadow map, virtual point lights and ray-traced shadows.
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "scene/scene.h"
@@ -9,6 +10,10 @@ namespace luciole {
 
 // A punctual light, chosen by the shot ([[primary]]) or among the file's strongest.
 using PrimaryLights = std::vector<PunctualLight>;
+
+// The scene's lights that are not primary, as indices in Scene::lights. Lights have no identity but their values: each
+// primary light takes away one that is equal to it, if there is one.
+std::vector<std::uint32_t> other_lights(const Scene&, const PrimaryLights&);
 
 // Flux of a light into the scene [W], luminance of its colour: what VPLs are shared by. A sun's is its irradiance
 // times the area of the rectangle round the scene's bounds, seen along its direction.

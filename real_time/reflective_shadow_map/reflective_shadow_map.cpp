@@ -13,8 +13,8 @@
 namespace luciole {
 namespace {
 
-constexpr std::uint32_t kDimensionTexel = 0;
-constexpr std::size_t kGrain = 16;  // packets per unit of work
+constexpr std::uint32_t kDimensionTexel = 5;  // apart from ranges and emissive points: seeds may be equal
+constexpr std::size_t kGrain = 16;            // packets per unit of work
 
 // Below this cosine the surface of a texel is a strip longer than 10,000 times its width: its area stays that.
 constexpr float kLeastCosine = 1e-4f;

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "real_time/virtual_point_lights/virtual_point_lights.h"
 
-#include <algorithm>
 #include <vector>
 
-#include "base/parallel.h"
+#include "real_time/in_order.h"
 #include "real_time/virtual_point_lights/place_lights.h"
 
 namespace luciole {
 namespace {
-
-constexpr std::size_t kChunk = 4096;  // texels per unit of work
 
 // Reflects something: met a surface, carries flux, and came from above both normals.
 bool is_light(const SurfaceTexel& texel) {
@@ -36,16 +33,6 @@ void write(const SurfaceTexel& texel, std::uint32_t key, std::size_t at, Virtual
   out.key[at] = key;
 }
 
-// Calls body(chunk, first, last) for every chunk of texels, in parallel.
-template <class Body>
-void for_each_chunk(std::size_t texels, const Body& body) {
-  parallel_for((texels + kChunk - 1) / kChunk, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t chunk = begin; chunk < end; ++chunk) {
-      body(chunk, chunk * kChunk, std::min(texels, (chunk + 1) * kChunk));
-    }
-  });
-}
-
 }  // namespace
 
 void VirtualPointLights::resize(std::size_t count) {
@@ -57,19 +44,10 @@ void VirtualPointLights::resize(std::size_t count) {
 }
 
 void place_virtual_point_lights(const std::vector<SurfaceTexel>& texels, VirtualPointLights& lights) {
-  // first[c]: where the lights of chunk c go, found by counting first, so that the order is that of the texels.
-  std::vector<std::size_t> first((texels.size() + kChunk - 1) / kChunk + 1, 0);
-  for_each_chunk(texels.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) first[chunk + 1] += is_light(texels[i]);
-  });
-  for (std::size_t chunk = 1; chunk < first.size(); ++chunk) first[chunk] += first[chunk - 1];
-  lights.resize(first.back());
-  for_each_chunk(texels.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    std::size_t at = first[chunk];
-    for (std::size_t i = begin; i < end; ++i) {
-      if (is_light(texels[i])) write(texels[i], static_cast<std::uint32_t>(i), at++, lights);
-    }
-  });
+  const auto keep = [&](std::size_t i) { return is_light(texels[i]); };
+  const KeptItems kept(texels.size(), keep);
+  lights.resize(kept.count());
+  kept.write(keep, [&](std::size_t i, std::size_t at) { write(texels[i], static_cast<std::uint32_t>(i), at, lights); });
 }
 
 VirtualPointLights make_virtual_point_lights(const RayScene& scene, const PrimaryLights& primaries,

@@ -23,7 +23,7 @@ struct VirtualPointLights {
   Plane3 f0;
   Plane f90;
   Plane ggx_alpha;
-  Plane area;               // the surface that the texel stands for [m^2]
+  Plane area;                        // the surface that the texel stands for [m^2]
   AlignedVector<std::uint32_t> key;  // texel index over all maps: keys the random numbers, never compacted
 
   std::size_t size() const { return key.size(); }
