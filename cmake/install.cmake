@@ -42,7 +42,8 @@ foreach(folder base equations image scene shot ray_tracing real_time)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION include/luciole FILES_MATCHING
           PATTERN "*.h" PATTERN "*.inc")
 endforeach()
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/shots DESTINATION ${CMAKE_INSTALL_DATADIR}/luciole FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/shots DESTINATION ${CMAKE_INSTALL_DATADIR}/luciole FILES_MATCHING
+        PATTERN "*.toml")
 
 if(LUCIOLE_EMBREE4_INCLUDE)
   set(LUCIOLE_EMBREE_VERSION 4)

@@ -6,6 +6,7 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <new>
@@ -71,7 +72,8 @@ void check_header_walk(const std::string& bytes, bool is_whole_file) {
 void check_prelude(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw Refused("it cannot be opened");
-  std::string bytes(kMaxHeaderBytes, '\0');
+  const std::uint64_t file_bytes = fs::file_size(path);
+  std::string bytes(std::min<std::uint64_t>(file_bytes, kMaxHeaderBytes), '\0');
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(stream.gcount()));
   if (bytes.size() < 8 || little_endian_32(bytes.data()) != 20000630) throw Refused("it is not an OpenEXR file");
@@ -79,7 +81,7 @@ void check_prelude(const fs::path& path) {
   if (version & 0x800) throw Refused("deep images are not read");
   if (version & 0x1000) throw Refused("files of several parts are not read");
   if (version & 0x200) throw Refused("tiled files are not read; convert it to scanlines");
-  check_header_walk(bytes, bytes.size() < kMaxHeaderBytes);
+  check_header_walk(bytes, bytes.size() == file_bytes);
 }
 
 void check_header(const Imf::Header& header, std::uint64_t file_bytes) {

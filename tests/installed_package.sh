@@ -20,9 +20,13 @@ fi
 
 for example in "$@"; do
   cp -r "$here/examples/$example" "$scratch/$example"
+  echo "== $example"
   cmake -S "$scratch/$example" -B "$scratch/$example/build" -G Ninja -DCMAKE_PREFIX_PATH="$scratch/prefix" \
     > "$scratch/$example/configure.log"
-  cmake --build "$scratch/$example/build" > "$scratch/$example/build.log" || { cat "$scratch/$example/build.log"; exit 1; }
+  cmake --build "$scratch/$example/build" > "$scratch/$example/build.log" || {
+    cat "$scratch/$example/build.log"
+    exit 1
+  }
   cd "$scratch/$example"
   case $example in
     render_a_scene) build/render_a_scene && test -s picture.png ;;
