@@ -139,17 +139,30 @@ LUCIOLE_FN real largest_surface_slope(SurfacePlane surface, Tile tile) {
          max(surface.normal.y * tile.y_low, surface.normal.y * tile.y_high) + surface.normal.z;
 }
 
+// Least and largest stretched x and y per unit of depth, over the tile's rays.
+struct StretchedSlopes {
+  real x_low, x_high;
+  real y_low, y_high;
+};
+
+LUCIOLE_FN StretchedSlopes stretched_slopes(TriangularFactor m, Tile tile) {
+  StretchedSlopes s;
+  s.y_low = m.m11 * tile.y_low + m.m12;
+  s.y_high = m.m11 * tile.y_high + m.m12;
+  s.x_low = m.m00 * tile.x_low + min(m.m01 * tile.y_low, m.m01 * tile.y_high) + m.m02;
+  s.x_high = m.m00 * tile.x_high + max(m.m01 * tile.y_low, m.m01 * tile.y_high) + m.m02;
+  return s;
+}
+
 // Squared distance, in the stretched space, from the unit sphere's centre to the box around a part of the frustum.
-// The box is that of the 8 corners, exactly: along x and y the corners' slopes are extremal, z is linear in depth.
-//   z_scale              m22
-//   x_slopes, y_slopes   least and largest stretched x and y per unit of depth
-LUCIOLE_FN real stretched_distance_sq(real3 stretched, real z_scale, real2 x_slopes, real2 y_slopes, real depth_low,
-                                      real depth_high) {
-  const real z_gap = max(z_scale * depth_low - stretched.z, stretched.z - z_scale * depth_high);
-  const real y_gap = max(min(y_slopes.x * depth_low, y_slopes.x * depth_high) - stretched.y,
-                         stretched.y - max(y_slopes.y * depth_low, y_slopes.y * depth_high));
-  const real x_gap = max(min(x_slopes.x * depth_low, x_slopes.x * depth_high) - stretched.x,
-                         stretched.x - max(x_slopes.y * depth_low, x_slopes.y * depth_high));
+// The box is that of the 8 corners, exactly: x and y are extremal at extremal slopes, and all is linear in depth.
+//   z_scale  m22
+LUCIOLE_FN real stretched_distance_sq(real3 centre, real z_scale, StretchedSlopes s, real depth_low, real depth_high) {
+  const real z_gap = max(z_scale * depth_low - centre.z, centre.z - z_scale * depth_high);
+  const real y_gap = max(min(s.y_low * depth_low, s.y_low * depth_high) - centre.y,
+                         centre.y - max(s.y_high * depth_low, s.y_high * depth_high));
+  const real x_gap = max(min(s.x_low * depth_low, s.x_low * depth_high) - centre.x,
+                         centre.x - max(s.x_high * depth_low, s.x_high * depth_high));
   const real ex = max(x_gap, real(0.0f));
   const real ey = max(y_gap, real(0.0f));
   const real ez = max(z_gap, real(0.0f));
@@ -172,12 +185,10 @@ LUCIOLE_FN mask within_sides(TileTestEllipsoid t, Tile tile) {
 
 // Our test of an ellipsoid: box in the stretched space, side planes, and the plane of the light's surface.
 LUCIOLE_FN HalfMasks ellipsoid_touches_tile(TileTestEllipsoid t, Tile tile) {
-  const TriangularFactor m = t.factor;
-  const real2 y_slopes = real2(m.m11 * tile.y_low + m.m12, m.m11 * tile.y_high + m.m12);
-  const real2 x_slopes = real2(m.m00 * tile.x_low + min(m.m01 * tile.y_low, m.m01 * tile.y_high) + m.m02,
-                               m.m00 * tile.x_high + max(m.m01 * tile.y_low, m.m01 * tile.y_high) + m.m02);
-  const real near_sq = stretched_distance_sq(t.stretched, m.m22, x_slopes, y_slopes, tile.near_low, tile.near_high);
-  const real far_sq = stretched_distance_sq(t.stretched, m.m22, x_slopes, y_slopes, tile.far_low, tile.far_high);
+  const StretchedSlopes slopes = stretched_slopes(t.factor, tile);
+  const real scale = t.factor.m22;
+  const real near_sq = stretched_distance_sq(t.stretched, scale, slopes, tile.near_low, tile.near_high);
+  const real far_sq = stretched_distance_sq(t.stretched, scale, slopes, tile.far_low, tile.far_high);
   const real slope = largest_surface_slope(t.surface, tile);
   const mask sides = within_sides(t, tile);
   const real limit = 1.0002f;
@@ -189,10 +200,13 @@ LUCIOLE_FN HalfMasks ellipsoid_touches_tile(TileTestEllipsoid t, Tile tile) {
 
 // The same for a sphere: nothing to stretch.
 LUCIOLE_FN HalfMasks sphere_touches_tile(TileTestSphere t, Tile tile) {
-  const real2 x_slopes = real2(tile.x_low, tile.x_high);
-  const real2 y_slopes = real2(tile.y_low, tile.y_high);
-  const real near_sq = stretched_distance_sq(t.centre, 1.0f, x_slopes, y_slopes, tile.near_low, tile.near_high);
-  const real far_sq = stretched_distance_sq(t.centre, 1.0f, x_slopes, y_slopes, tile.far_low, tile.far_high);
+  StretchedSlopes slopes;
+  slopes.x_low = tile.x_low;
+  slopes.x_high = tile.x_high;
+  slopes.y_low = tile.y_low;
+  slopes.y_high = tile.y_high;
+  const real near_sq = stretched_distance_sq(t.centre, 1.0f, slopes, tile.near_low, tile.near_high);
+  const real far_sq = stretched_distance_sq(t.centre, 1.0f, slopes, tile.far_low, tile.far_high);
   const real3 v = t.centre;
   const real r_sq = t.radius_sq * 1.001f;
   const mask outside = beyond_side(v.x - tile.x_low * v.z, r_sq * (1.0f + tile.x_low * tile.x_low)) ||
