@@ -29,7 +29,7 @@ void check_header(std::span<const std::uint8_t> file) {
   if (length < kHeaderBytes + kChunkHeaderBytes) {
     fail("GLB_LENGTH_TOO_SMALL", "", "says that it is " + std::to_string(length) + " bytes long, too few for a GLB");
   }
-  if (length != file.size()) {
+  if (length > file.size()) {
     fail("GLB_LENGTH_MISMATCH", "",
          "says that it is " + std::to_string(length) + " bytes long but has " + std::to_string(file.size()));
   }
@@ -41,6 +41,7 @@ bool is_glb(std::span<const std::uint8_t> file) { return file.size() >= 4 && wor
 
 GlbChunks split_glb(std::span<const std::uint8_t> file) {
   check_header(file);
+  file = file.first(word_at(file, 8));  // what follows is not ours
   GlbChunks chunks;
   std::size_t index = 0;
   for (std::size_t offset = kHeaderBytes; offset < file.size(); ++index) {

@@ -110,7 +110,7 @@ template <class Store>
 void for_each_element(Document& document, std::size_t accessor, const AccessorShape& shape, const Store& store) {
   const JsonObject object = document.element(kAccessors, accessor);
   const std::uint64_t element_bytes = std::uint64_t(shape.components) * byte_size(shape.component_type);
-  static constexpr std::uint8_t kZeros[16] = {};
+  static constexpr std::uint8_t kZeros[64] = {};
   Elements base{kZeros, 0};
   if (object.has("bufferView")) {
     base = elements_in_view(document, object, shape.count, element_bytes);
@@ -146,7 +146,7 @@ void for_each_element(Document& document, std::size_t accessor, const AccessorSh
   }
 }
 
-// Before memory is taken: an accessor without bytes may claim any count.
+// Before memory is taken. An accessor without bytes may claim any count.
 void check_count(const Document& document, const AccessorShape& shape) {
   if (shape.count > document.limits().vertices) {
     fail("VALUE_NOT_IN_RANGE", shape.label,
@@ -156,6 +156,10 @@ void check_count(const Document& document, const AccessorShape& shape) {
 }
 
 }  // namespace
+
+void check_accessor_bytes(Document& document, std::size_t accessor) {
+  for_each_element(document, accessor, accessor_shape(document, accessor), [](std::uint64_t, const std::uint8_t*) {});
+}
 
 AccessorShape accessor_shape(const Document& document, std::size_t accessor) {
   const JsonObject object = document.element(kAccessors, accessor);
@@ -175,9 +179,10 @@ AccessorShape accessor_shape(const Document& document, std::size_t accessor) {
     shape.components = 1;
   } else if (type == "VEC2" || type == "VEC3" || type == "VEC4") {
     shape.components = static_cast<std::uint32_t>(type[3] - '0');
+  } else if (type == "MAT4") {
+    shape.components = 16;
   } else {
-    fail("VALUE_NOT_IN_LIST", shape.label,
-         "its type \"" + printable(type) + "\" is neither SCALAR nor VEC2, VEC3, VEC4");
+    fail("VALUE_NOT_IN_LIST", shape.label, "its type \"" + printable(type) + "\" is not one that can be read");
   }
   return shape;
 }

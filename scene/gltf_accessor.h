@@ -22,13 +22,16 @@ enum class ComponentType : std::uint32_t {
 struct AccessorShape {
   std::string label;
   ComponentType component_type = ComponentType::float32;
-  std::uint32_t components = 1;  // 1 SCALAR .. 4 VEC4; matrices are not read by anything here
+  std::uint32_t components = 1;  // 1 SCALAR .. 4 VEC4; 16 MAT4
   bool normalised = false;
   std::uint64_t count = 0;
 };
 
-// What the JSON says; fails if it is not a vector accessor.
+// What the JSON says. MAT2 and MAT3, whose columns are padded and which nothing here uses, are refused.
 AccessorShape accessor_shape(const Document& document, std::size_t accessor);
+
+// Whether all that the accessor refers to is there, sparse indices included.
+void check_accessor_bytes(Document& document, std::size_t accessor);
 
 // count * components values. Integers become floats as the format says (normalised or not); every value is finite.
 std::vector<float> read_floats(Document& document, std::size_t accessor);

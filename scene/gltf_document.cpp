@@ -44,10 +44,10 @@ std::vector<std::string> strings_of(const JsonObject& object, const char* proper
 
 }  // namespace
 
-Document::Document(std::span<const std::uint8_t> file, FileReader files, const LoadLimits& limits)
+Document::Document(std::span<const std::uint8_t> file, bool must_be_glb, FileReader files, const LoadLimits& limits)
     : files_(std::move(files)), limits_(limits) {
   std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
-  if (is_glb(file)) {
+  if (must_be_glb || is_glb(file)) {
     const GlbChunks chunks = split_glb(file);
     text = chunks.json;
     glb_binary_ = chunks.binary;
@@ -146,12 +146,13 @@ BufferView Document::buffer_view(std::size_t index) {
 
 std::span<const std::uint8_t> Document::image_bytes(std::size_t image, Bytes& storage) {
   const JsonObject object = element(kImages, image);
+  if (object.has("bufferView") == object.has("uri")) {
+    fail("ONE_OF_MISMATCH", object.label(), "needs either a URI or a bufferView");
+  }
   if (const std::optional<std::size_t> view = object.reference("bufferView", count(kBufferViews))) {
     return buffer_view(*view).bytes;
   }
-  const std::string uri = object.text("uri");
-  if (uri.empty()) fail("ONE_OF_MISMATCH", object.label(), "has neither a URI nor a bufferView");
-  storage = resolve_uri(uri, object.label(), files_);
+  storage = resolve_uri(object.text("uri"), object.label(), files_);
   return storage;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A glTF 2.0 document while it is being read: its JSON, its bytes, what it has used of its limits, its warnings.
-// Everything is checked where it is used; what no drawn object refers to is not looked at.
+// Everything is checked where it is used; gltf_check.h looks at the rest.
 #pragma once
 #include <map>
 #include <memory>
@@ -24,7 +24,8 @@ struct Kind {
 inline constexpr Kind kAccessors{"accessors", "accessor"}, kBuffers{"buffers", "buffer"},
     kBufferViews{"bufferViews", "bufferView"}, kCameras{"cameras", "camera"}, kImages{"images", "image"},
     kMaterials{"materials", "material"}, kMeshes{"meshes", "mesh"}, kNodes{"nodes", "node"},
-    kSamplers{"samplers", "sampler"}, kScenes{"scenes", "scene"}, kTextures{"textures", "texture"};
+    kSamplers{"samplers", "sampler"}, kScenes{"scenes", "scene"}, kSkins{"skins", "skin"},
+    kAnimations{"animations", "animation"}, kTextures{"textures", "texture"};
 
 struct BufferView {
   std::span<const std::uint8_t> bytes;
@@ -34,8 +35,8 @@ struct BufferView {
 
 class Document {
  public:
-  // `file` is the text or the GLB container; it must outlive the document.
-  Document(std::span<const std::uint8_t> file, FileReader files, const LoadLimits& limits);
+  // `file` is the text or (told by its first bytes, or demanded) the GLB container; it must outlive the document.
+  Document(std::span<const std::uint8_t> file, bool must_be_glb, FileReader files, const LoadLimits& limits);
   Document(const Document&) = delete;
   Document& operator=(const Document&) = delete;
 
@@ -43,6 +44,8 @@ class Document {
   std::size_t count(Kind kind) const;
   JsonObject element(Kind kind, std::size_t index) const;
 
+  std::span<const std::uint8_t> buffer(std::size_t index);
+  bool has_glb_binary() const { return glb_binary_.has_value(); }
   BufferView buffer_view(std::size_t index);
   // The encoded bytes of an image, wherever they are. `storage` keeps them if they belong to nobody else.
   std::span<const std::uint8_t> image_bytes(std::size_t image, Bytes& storage);
@@ -56,7 +59,6 @@ class Document {
   const LoadLimits& limits() const { return limits_; }
 
  private:
-  std::span<const std::uint8_t> buffer(std::size_t index);
   void check_asset() const;
   void check_extensions();
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "scene/file_fault.h"
 
@@ -41,7 +42,20 @@ void read_cone(const JsonObject& light, PunctualLight& result) {
   result.cos_outer = std::cos(outer);
 }
 
-PunctualLight read_light(Document& document, const JsonObject& light) {
+const Json* light_array(const Document& document) {
+  const std::optional<JsonObject> extension = document.root().extension("KHR_lights_punctual");
+  return extension ? extension->array("lights") : nullptr;
+}
+
+}  // namespace
+
+std::size_t light_count(const Document& document) {
+  const Json* lights = light_array(document);
+  return lights == nullptr ? 0 : lights->size();
+}
+
+PunctualLight read_light(Document& document, std::size_t index) {
+  const JsonObject light((*light_array(document))[index], "light " + std::to_string(index));
   PunctualLight result;
   result.kind = light_kind(light);
   result.name = light.text("name");
@@ -59,16 +73,12 @@ PunctualLight read_light(Document& document, const JsonObject& light) {
   return result;
 }
 
-}  // namespace
-
 void read_light_of(Document& document, const JsonObject& node, const Affine& world_from_node, Scene& scene) {
   const std::optional<JsonObject> use = node.extension("KHR_lights_punctual");
   if (!use) return;
-  const std::optional<JsonObject> list = document.root().extension("KHR_lights_punctual");
-  const Json* lights = list ? list->array("lights") : nullptr;
-  const std::size_t index = use->required_reference("light", lights == nullptr ? 0 : lights->size());
+  const std::size_t index = use->required_reference("light", light_count(document));
   check_place(world_from_node, node.label());
-  PunctualLight light = read_light(document, JsonObject((*lights)[index], "light " + std::to_string(index)));
+  PunctualLight light = read_light(document, index);
   if (light.name.empty()) light.name = node.text("name");
   light.position = world_from_node.translation;
   light.direction =
@@ -76,14 +86,12 @@ void read_light_of(Document& document, const JsonObject& node, const Affine& wor
   scene.lights.push_back(std::move(light));
 }
 
-void read_camera_of(Document& document, const JsonObject& node, const Affine& world_from_node, Scene& scene) {
-  const std::optional<std::size_t> index = node.reference("camera", document.count(kCameras));
-  if (!index) return;
-  const JsonObject camera = document.element(kCameras, *index);
+std::optional<Camera> read_camera(Document& document, std::size_t index) {
+  const JsonObject camera = document.element(kCameras, index);
   const std::string type = camera.text("type");
   if (type == "orthographic") {
     document.warn("orthographic", "Orthographic cameras are ignored.");
-    return;
+    return std::nullopt;
   }
   const std::optional<JsonObject> perspective = camera.object("perspective");
   if (type != "perspective" || !perspective) {
@@ -91,19 +99,28 @@ void read_camera_of(Document& document, const JsonObject& node, const Affine& wo
   }
   if (!perspective->has("yfov")) fail("UNDEFINED_PROPERTY", perspective->label(), "property \"yfov\" is missing");
   Camera result;
+  result.name = camera.text("name");
   result.vertical_fov = perspective->number("yfov", 0);
   if (!(result.vertical_fov > 0) || result.vertical_fov >= kPi) {
     fail("VALUE_NOT_IN_RANGE", perspective->label(), "property \"yfov\" is not between 0 and pi");
   }
+  return result;
+}
+
+void read_camera_of(Document& document, const JsonObject& node, const Affine& world_from_node, Scene& scene) {
+  const std::optional<std::size_t> index = node.reference("camera", document.count(kCameras));
+  if (!index) return;
+  std::optional<Camera> camera = read_camera(document, *index);
+  if (!camera) return;
   check_place(world_from_node, node.label());
-  result.name = camera.text("name", node.text("name"));
-  result.eye = world_from_node.translation;
-  result.forward = direction_of(-world_from_node.z, {0, 0, -1});
+  if (camera->name.empty()) camera->name = node.text("name");
+  camera->eye = world_from_node.translation;
+  camera->forward = direction_of(-world_from_node.z, {0, 0, -1});
   // Orthonormal whatever scale or shear the nodes have.
-  const Vec3 up = world_from_node.y - result.forward * dot(world_from_node.y, result.forward);
-  result.up = direction_of(up, look_at({0, 0, 0}, result.forward, 1).up);
-  result.right = cross(result.forward, result.up);
-  scene.cameras.push_back(std::move(result));
+  const Vec3 up = world_from_node.y - camera->forward * dot(world_from_node.y, camera->forward);
+  camera->up = direction_of(up, look_at({0, 0, 0}, camera->forward, 1).up);
+  camera->right = cross(camera->forward, camera->up);
+  scene.cameras.push_back(std::move(*camera));
 }
 
 }  // namespace luciole::gltf

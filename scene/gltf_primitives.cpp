@@ -123,6 +123,19 @@ std::vector<std::uint32_t> as_triangle_list(std::vector<std::uint32_t> corners, 
   return list;
 }
 
+// Every attribute has to refer to an accessor, whether it is read or not.
+void check_attributes(const Document& document, const JsonObject& attributes) {
+  for (const auto& [name, value] : attributes.json().items()) {
+    attributes.required_reference(name.c_str(), document.count(kAccessors));
+  }
+}
+
+bool has_morph_targets(const Document& document, const JsonObject& primitive) {
+  const std::vector<JsonObject> targets = primitive.objects("targets", "target");
+  for (const JsonObject& target : targets) check_attributes(document, target);
+  return !targets.empty();
+}
+
 std::optional<Mesh> read_primitive(Document& document, const JsonObject& primitive) {
   const std::uint64_t mode = primitive.whole("mode", static_cast<std::uint64_t>(Mode::triangles));
   if (mode > static_cast<std::uint64_t>(Mode::triangle_fan)) {
@@ -130,6 +143,10 @@ std::optional<Mesh> read_primitive(Document& document, const JsonObject& primiti
   }
   const std::optional<JsonObject> attributes = primitive.object("attributes");
   if (!attributes) fail("UNDEFINED_PROPERTY", primitive.label(), "property \"attributes\" is missing");
+  check_attributes(document, *attributes);
+  if (has_morph_targets(document, primitive)) {
+    document.warn("morph targets", "Morph targets are ignored: meshes keep their base shape.");
+  }
   if (mode < static_cast<std::uint64_t>(Mode::triangles)) {
     document.warn("points and lines", "Points and lines are ignored.");
     return std::nullopt;
@@ -138,8 +155,6 @@ std::optional<Mesh> read_primitive(Document& document, const JsonObject& primiti
     document.warn("no positions", "Primitives without positions are ignored: " + primitive.label() + ".");
     return std::nullopt;
   }
-  if (primitive.has("targets"))
-    document.warn("morph targets", "Morph targets are ignored: meshes keep their base shape.");
   Mesh mesh;
   read_vertices(document, *attributes, mesh);
   std::vector<std::uint32_t> corners = read_corners(document, primitive, mesh.positions.size());
@@ -154,7 +169,9 @@ std::optional<Mesh> read_primitive(Document& document, const JsonObject& primiti
 
 std::vector<Mesh> read_mesh(Document& document, std::size_t index) {
   const JsonObject object = document.element(kMeshes, index);
-  if (!object.has("primitives")) fail("UNDEFINED_PROPERTY", object.label(), "property \"primitives\" is missing");
+  const Json* primitives = object.array("primitives");
+  if (primitives == nullptr) fail("UNDEFINED_PROPERTY", object.label(), "property \"primitives\" is missing");
+  if (primitives->empty()) fail("EMPTY_ENTITY", object.label(), "has no primitives");
   std::vector<Mesh> meshes;
   for (const JsonObject& primitive : object.objects("primitives", "primitive")) {
     std::optional<Mesh> mesh = read_primitive(document, primitive);

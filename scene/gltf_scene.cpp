@@ -7,6 +7,7 @@
 
 #include "scene/file_fault.h"
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_check.h"
 #include "scene/gltf_lights_cameras.h"
 #include "scene/gltf_materials.h"
 #include "scene/gltf_nodes.h"
@@ -48,14 +49,15 @@ std::vector<Affine> read_instances(Document& document, const JsonObject& node) {
 
 class SceneReader {
  public:
-  SceneReader(std::span<const std::uint8_t> file, FileReader files, const LoadLimits& limits)
-      : document_(file, std::move(files), limits), textures_(document_) {}
+  SceneReader(std::span<const std::uint8_t> file, bool must_be_glb, FileReader files, const LoadLimits& limits)
+      : document_(file, must_be_glb, std::move(files), limits), textures_(document_) {}
 
   Scene read() {
     for_each_node(document_, [this](std::size_t node, const Affine& world_from_node) { visit(node, world_from_node); });
-    if (document_.count({"animations", "animation"}) > 0) {
+    if (document_.count(kAnimations) > 0) {
       document_.warn("animations", "Animations are ignored: the scene keeps its resting pose.");
     }
+    check_the_rest(document_, meshes_);
     meshes_.clear();
     if (scene_.materials.empty()) scene_.materials.push_back(default_material());
     scene_.textures = textures_.decoded_textures();
@@ -124,8 +126,8 @@ class SceneReader {
 
 }  // namespace
 
-Scene read_scene(std::span<const std::uint8_t> file, FileReader files, const LoadLimits& limits) {
-  return SceneReader(file, std::move(files), limits).read();
+Scene read_scene(std::span<const std::uint8_t> file, bool must_be_glb, FileReader files, const LoadLimits& limits) {
+  return SceneReader(file, must_be_glb, std::move(files), limits).read();
 }
 
 }  // namespace luciole::gltf

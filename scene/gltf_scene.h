@@ -8,7 +8,8 @@
 
 namespace luciole::gltf {
 
-// `file` is the text of a .gltf or a .glb container. Throws FileFault.
-Scene read_scene(std::span<const std::uint8_t> file, FileReader files, const LoadLimits& limits);
+// `file` is the text of a .gltf or a .glb container, told by its first bytes unless the name says .glb. Throws
+// FileFault.
+Scene read_scene(std::span<const std::uint8_t> file, bool must_be_glb, FileReader files, const LoadLimits& limits);
 
 }  // namespace luciole::gltf

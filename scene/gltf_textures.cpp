@@ -45,10 +45,8 @@ void apply_transform(const JsonObject& transform, TextureSlot& slot) {
 
 }  // namespace
 
-void TextureReader::read_sampler(const JsonObject& texture_object, Texture& texture) {
-  const std::optional<std::size_t> index = texture_object.reference("sampler", document_.count(kSamplers));
-  if (!index) return;
-  const JsonObject sampler = document_.element(kSamplers, *index);
+void TextureReader::read_sampler(std::size_t index, Texture& texture) const {
+  const JsonObject sampler = document_.element(kSamplers, index);
   texture.wrap_u = wrap_mode(sampler, "wrapS");
   texture.wrap_v = wrap_mode(sampler, "wrapT");
   const std::uint64_t magnify = sampler.whole("magFilter", kLinear);
@@ -76,18 +74,24 @@ void TextureReader::read_sampler(const JsonObject& texture_object, Texture& text
   texture.minify_linear = minify == kLinear || minify == kLinearMipNearest || minify == kLinearMipLinear;
 }
 
+void TextureReader::check_sampler(std::size_t sampler) const {
+  Texture unused;
+  read_sampler(sampler, unused);
+}
+
 std::int32_t TextureReader::texture(std::size_t index, bool srgb) {
   const auto [entry, is_new] = known_.try_emplace({index, srgb}, -1);
   if (!is_new) return entry->second;
   const JsonObject object = document_.element(kTextures, index);
   const std::optional<std::size_t> image = object.reference("source", document_.count(kImages));
+  const std::optional<std::size_t> sampler = object.reference("sampler", document_.count(kSamplers));
   if (!image) {
     document_.warn(object.label(), "The " + object.label() + " is ignored: it has no PNG or JPEG source.");
     return -1;
   }
   Texture result;
   result.name = document_.element(kImages, *image).text("name", object.text("name"));
-  read_sampler(object, result);
+  if (sampler) read_sampler(*sampler, result);
   entry->second = static_cast<std::int32_t>(textures_.size());
   textures_.push_back(std::move(result));
   image_of_texture_.emplace_back(*image, srgb);

@@ -20,12 +20,16 @@ class TextureReader {
   //   property  for example "baseColorTexture"
   TextureSlot slot(const JsonObject& object, const char* property, bool srgb);
 
+  // The scene's index of a texture; -1 if it has no readable source.
+  std::int32_t texture(std::size_t index, bool srgb);
+
+  void check_sampler(std::size_t sampler) const;
+
   // Decodes every image that was asked for and gives the textures their pixels.
   std::vector<Texture> decoded_textures();
 
  private:
-  std::int32_t texture(std::size_t index, bool srgb);
-  void read_sampler(const JsonObject& texture_object, Texture& texture);
+  void read_sampler(std::size_t sampler, Texture& texture) const;
 
   Document& document_;
   std::vector<Texture> textures_;

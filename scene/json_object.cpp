@@ -93,14 +93,27 @@ float JsonObject::number(const char* property, float fallback) const {
   return static_cast<float>(result);
 }
 
-std::uint64_t JsonObject::whole(const char* property, std::uint64_t fallback) const {
-  const Json* value = find(property);
-  if (value == nullptr) return fallback;
-  if (!value->is_number()) mismatch(property, "a whole number");
+std::uint64_t JsonObject::whole_number(const Json& value, const char* property) const {
+  if (!value.is_number()) mismatch(property, "a whole number");
   constexpr double kLargest = 9007199254740992.0;  // 2^53: beyond it JSON numbers skip integers
-  const auto number = value->get<double>();
+  const auto number = value.get<double>();
   if (!(number >= 0) || number > kLargest || number != std::floor(number)) mismatch(property, "a whole number");
   return static_cast<std::uint64_t>(number);
+}
+
+std::size_t JsonObject::index_below(const Json& value, const char* property, std::size_t count) const {
+  const std::uint64_t index = whole_number(value, property);
+  if (index >= count) {
+    fail("UNRESOLVED_REFERENCE", label_,
+         std::string("property \"") + property + "\" refers to number " + std::to_string(index) + " of " +
+             std::to_string(count));
+  }
+  return static_cast<std::size_t>(index);
+}
+
+std::uint64_t JsonObject::whole(const char* property, std::uint64_t fallback) const {
+  const Json* value = find(property);
+  return value == nullptr ? fallback : whole_number(*value, property);
 }
 
 std::uint64_t JsonObject::required_whole(const char* property) const {
@@ -109,14 +122,9 @@ std::uint64_t JsonObject::required_whole(const char* property) const {
 }
 
 std::optional<std::size_t> JsonObject::reference(const char* property, std::size_t count) const {
-  if (!has(property)) return std::nullopt;
-  const std::uint64_t index = whole(property, 0);
-  if (index >= count) {
-    fail("UNRESOLVED_REFERENCE", label_,
-         std::string("property \"") + property + "\" refers to number " + std::to_string(index) + " of " +
-             std::to_string(count));
-  }
-  return static_cast<std::size_t>(index);
+  const Json* value = find(property);
+  if (value == nullptr) return std::nullopt;
+  return index_below(*value, property, count);
 }
 
 std::size_t JsonObject::required_reference(const char* property, std::size_t count) const {
@@ -136,16 +144,7 @@ std::vector<std::size_t> JsonObject::references(const char* property, std::size_
   const Json* values = array(property);
   if (values == nullptr) return result;
   result.reserve(values->size());
-  for (const Json& value : *values) {
-    if (!value.is_number_unsigned()) mismatch(property, "an array of indices");
-    const auto index = value.get<std::uint64_t>();
-    if (index >= count) {
-      fail("UNRESOLVED_REFERENCE", label_,
-           std::string("property \"") + property + "\" refers to number " + std::to_string(index) + " of " +
-               std::to_string(count));
-    }
-    result.push_back(static_cast<std::size_t>(index));
-  }
+  for (const Json& value : *values) result.push_back(index_below(value, property, count));
   return result;
 }
 

@@ -55,6 +55,8 @@ class JsonObject {
  private:
   const Json* find(const char* property) const;
   [[noreturn]] void mismatch(const char* property, const char* expected) const;
+  std::uint64_t whole_number(const Json& value, const char* property) const;
+  std::size_t index_below(const Json& value, const char* property, std::size_t count) const;
   void read_numbers(const Json& values, const char* property, float* result, std::size_t count) const;
 
   const Json* value_;

@@ -38,7 +38,7 @@ Result<Scene> guarded(const std::string& name, const Reader& reader) {
 Result<Scene> load_gltf(std::span<const std::uint8_t> file, const std::string& name, const FileReader& files,
                         const LoadLimits& limits) {
   return guarded(name, [&] {
-    Scene scene = gltf::read_scene(file, files, limits);
+    Scene scene = gltf::read_scene(file, name.ends_with(".glb"), files, limits);
     scene.name = name;
     return scene;
   });
