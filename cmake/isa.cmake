@@ -22,3 +22,13 @@ function(luciole_isa_sources target source)
     target_sources(${target} PRIVATE ${wrapper})
   endforeach()
 endfunction()
+
+# luciole_isa_symbol_test(name target): a test that the target's objects of luciole_isa_sources share no symbol with code
+# for other processors. Add it for each target that uses luciole_isa_sources.
+function(luciole_isa_symbol_test name target)
+  if(LUCIOLE_TESTS)
+    add_test(NAME ${name} COMMAND ${CMAKE_COMMAND} -DNM=${CMAKE_NM} "-DOBJECTS=$<JOIN:$<TARGET_OBJECTS:${target}>,,>" -P
+                                  ${PROJECT_SOURCE_DIR}/cmake/check_symbols.cmake)
+    set_tests_properties(${name} PROPERTIES LABELS unit)
+  endif()
+endfunction()

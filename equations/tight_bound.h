@@ -39,7 +39,7 @@ LUCIOLE_FN real fitted_zeta(real alpha, real c_sq, real s_sq) {
 //   alpha  roughness of the bound: lobe.alpha, or less tight values for tight_ellipsoid  [1] in (0,1]
 //   size   r of the bound                                                                [m]
 LUCIOLE_FN BoundingEllipsoid fitted_ellipsoid_of(GlossyLobe lobe, real alpha, real size) {
-  const real c_sq = 1.0f - lobe.sin_sq;
+  const real c_sq = lobe.cos_incident * lobe.cos_incident;
   const real e = lobe_eccentricity(alpha);
   const real zeta = fitted_zeta(alpha, c_sq, lobe.sin_sq);
   const real alpha_sq = alpha * alpha;

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+# cmake -DNM=nm -DOBJECTS=a.o,b.o -P check_symbols.cmake
+# Fails if an object of luciole_isa_sources defines a symbol that the linker may share (global, weak, unique) outside the
+# namespace of its instruction set: such a symbol could carry AVX-512 code into a program path for older processors.
+string(REPLACE "," ";" objects "${OBJECTS}")
+set(checked 0)
+foreach(object IN LISTS objects)
+  if(NOT object MATCHES "_(avx512|avx2|baseline)\\.cpp\\.o")
+    continue()
+  endif()
+  set(isa ${CMAKE_MATCH_1})
+  math(EXPR checked "${checked} + 1")
+  execute_process(COMMAND ${NM} -C --defined-only --extern-only ${object} OUTPUT_VARIABLE symbols RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "nm failed on ${object}")
+  endif()
+  string(REPLACE ";" "," symbols "${symbols}")
+  string(REGEX REPLACE "\n" ";" symbols "${symbols}")
+  foreach(symbol IN LISTS symbols)
+    if(symbol AND NOT symbol MATCHES "luciole::${isa}::" AND NOT symbol MATCHES "DW\\.ref\\.|__asan|__odr_asan")
+      message(SEND_ERROR "${object}: '${symbol}' is outside luciole::${isa}")
+    endif()
+  endforeach()
+endforeach()
+if(checked EQUAL 0)
+  message(FATAL_ERROR "no object of an instruction set among: ${OBJECTS}")
+endif()
