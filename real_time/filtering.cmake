@@ -13,7 +13,7 @@ add_library(luciole_synthetic_room STATIC EXCLUDE_FROM_ALL ${filtering}/syntheti
 target_link_libraries(luciole_synthetic_room PUBLIC luciole_flags)
 
 add_executable(filter_benchmark EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/benchmarks/filter_benchmark.cpp)
-target_link_libraries(filter_benchmark PRIVATE luciole_real_time_filtering luciole_synthetic_room)
+target_link_libraries(filter_benchmark PRIVATE luciole_real_time_filtering luciole_synthetic_room luciole_settings)
 
 luciole_test(filtering_test
   SOURCES ${filtering}/bilateral_filter_test.cpp ${filtering}/reference_filter.cpp

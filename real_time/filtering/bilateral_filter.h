@@ -10,8 +10,9 @@
 
 namespace luciole {
 
-// The footprint that averages n x n interleaved pixels evenly: a multiple of n. [TH17] has radius 8 for n = 8; smaller
-// n would allow less, but roulette noise stays, and 8 is measured best for each of them (docs/results/filter.md).
+// The footprint that averages n x n interleaved pixels evenly must be a multiple of n. 8, [TH17]'s radius, serves n =
+// 1, 2, 4 and 8: smaller n needs less for its pattern, but roulette noise stays, and at 1280x720 no smaller radius has
+// a smaller error (docs/results/filter.md). For other n, the largest multiple up to 8.
 FilterRadius filter_radius(std::uint32_t interleave);
 
 class BilateralFilterPass {

@@ -114,8 +114,8 @@ LUCIOLE_FN void finish(const FilterPicture& picture, const FilterTile& tile, int
 }  // namespace
 
 void filter_tile(const FilterPicture& picture, const FilterTile& tile) {
-  for (int y = 0; y < tile.height; ++y) {
-    for (int x = 0; x < tile.width; x += kLanes) {
+  for (int x = 0; x < tile.width; x += kLanes) {
+    for (int y = 0; y < tile.height; ++y) {
       const FilterCentre centre = centre_at(picture, tile.x + x, tile.y + y);
       finish(picture, tile, x, y, add_taps(picture.radius, tile, x, y, centre));
     }
