@@ -17,3 +17,8 @@ luciole_room(real_time_front
 luciole_isa_sources(luciole_real_time_front direct_light/direct_light_kernel.cpp)
 
 luciole_test(light_map_test SOURCES reflective_shadow_map/light_map_test.cpp LINK luciole_real_time_front)
+luciole_test(geometry_buffer_test SOURCES geometry_buffer/geometry_buffer_test.cpp LINK luciole_real_time_front)
+luciole_test(virtual_point_lights_test SOURCES virtual_point_lights/virtual_point_lights_test.cpp
+             LINK luciole_real_time_front)
+luciole_test(many_lights_test SOURCES many_lights/many_lights_test.cpp LINK luciole_real_time_front)
+luciole_test(direct_light_test SOURCES direct_light/direct_light_test.cpp LINK luciole_real_time_front)
