@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shot/open_shot.h"
 
-#include <algorithm>
-
-#include "scene/default_view.h"
+#include "scene/default_lights.h"
+#include "scene/framing_camera.h"
 #include "scene/load_scene.h"
 #include "scene/recipes/recipes.h"
 
 namespace luciole {
 namespace {
-
-bool is_black(Vec3 colour) { return colour.x <= 0 && colour.y <= 0 && colour.z <= 0; }
-
-bool has_light(const Scene& scene, const std::vector<PunctualLight>& primary) {
-  const auto emits = [&scene](const Mesh& mesh) {
-    return !mesh.indices.empty() && !is_black(scene.materials[mesh.material].emission);
-  };
-  return !primary.empty() || !scene.lights.empty() || !is_black(scene.environment.radiance) ||
-         std::any_of(scene.meshes.begin(), scene.meshes.end(), emits);
-}
 
 Result<Scene> load(const Shot& shot, const SearchFolders& folders) {
   if (is_recipe_address(shot.scene)) return make_recipe_from_address(shot.scene);
@@ -28,17 +17,6 @@ Result<Scene> load(const Shot& shot, const SearchFolders& folders) {
 }
 
 }  // namespace
-
-PunctualLight default_sun() {
-  PunctualLight sun;
-  sun.kind = PunctualLight::Kind::directional;
-  sun.name = "default sun";
-  sun.direction = normalize(Vec3(0.45f, -1.0f, -0.35f));
-  sun.intensity = Vec3(3.0f, 2.8f, 2.5f);
-  return sun;
-}
-
-Vec3 default_sky_radiance() { return Vec3(0.25f, 0.32f, 0.45f); }
 
 void scale_scene(Scene& scene, float metres_per_unit) {
   if (metres_per_unit == 1) return;
@@ -97,14 +75,15 @@ Result<Scene> load_shot_scene(const Shot& shot, const SearchFolders& folders) {
 Result<OpenedShot> open_shot(const Shot& shot, const SearchFolders& folders) {
   Result<Scene> loaded = load_shot_scene(shot, folders);
   if (!loaded) return loaded.error();
-  OpenedShot opened{std::move(*loaded), {}, shot.primary, {}};
+  OpenedShot opened;
+  opened.scene = std::move(*loaded);
+  opened.primary = shot.primary;
   Scene& scene = opened.scene;
   if (scene.triangle_count() == 0) return Error{ErrorKind::bad_scene, shot.scene + ": the scene has no triangle"};
   if (shot.environment) scene.environment = Environment{*shot.environment, 0, 0, {}};
-  if (!has_light(scene, shot.primary)) {
-    scene.lights.push_back(default_sun());
-    scene.environment.radiance = default_sky_radiance();
-    opened.notes.push_back(shot.scene + ": has no light; a default sun and sky light it");
+  if (shot.primary.empty()) {
+    const std::string added = add_default_lights(scene);
+    if (!added.empty()) opened.notes.push_back(added);
   }
   if (shot.camera) {
     opened.camera = *shot.camera;
@@ -112,7 +91,7 @@ Result<OpenedShot> open_shot(const Shot& shot, const SearchFolders& folders) {
     opened.camera = scene.cameras.front();
   } else {
     opened.camera = framing_camera(scene);
-    opened.notes.push_back(shot.scene + ": has no camera; a default one frames it");
+    opened.notes.push_back("The scene has no camera: it gets one that frames it.");
   }
   return opened;
 }

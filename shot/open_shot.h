@@ -22,12 +22,8 @@ struct OpenedShot {
 Result<Scene> load_shot_scene(const Shot& shot, const SearchFolders& folders);
 
 // A shot without camera gets the scene's first one, or one that frames the scene; without any light (primary, punctual,
-// emissive, sky) the sun and the sky below. Both are notes. A scene without a triangle is refused.
+// emissive, sky) the sun and sky of scene/default_lights.h. Both are notes. A scene without a triangle is refused.
 Result<OpenedShot> open_shot(const Shot& shot, const SearchFolders& folders);
-
-// The light of a scene that has none: late morning, from the left behind a viewer who looks along -Z.
-PunctualLight default_sun();  // irradiance (3.0, 2.8, 2.5) W/m^2
-Vec3 default_sky_radiance();  // (0.25, 0.32, 0.45) W/(m^2 sr)
 
 // Moves positions of meshes, lights and cameras from file units to metres. Light units stay as they are.
 void scale_scene(Scene& scene, float metres_per_unit);

@@ -9,8 +9,8 @@
 #include "apps/command_line/commands.h"
 #include "apps/command_line/output_files.h"
 #include "apps/command_line/progress.h"
+#include "scene/gltf_writer.h"
 #include "scene/recipes/recipes.h"
-#include "scene/write_gltf.h"
 
 namespace luciole {
 namespace {

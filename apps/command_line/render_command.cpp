@@ -74,7 +74,7 @@ class Run {
       if (!camera) return camera.error();
       opened->camera = *camera;
     }
-    if (opened->primary.empty()) opened->primary = take_strongest_lights(opened->scene);
+    if (opened->primary.empty()) opened->primary = strongest_as_primary(opened->scene);
     statistics_.load_ms = ms_since(start);
     tell(*opened);
     progress_.step("building the acceleration structure");
@@ -87,8 +87,8 @@ class Run {
     statistics_.settings = plan_.settings;
     statistics_.threads = thread_count();
     statistics_.primary_lights = opened.primary.size();
-    for (const std::vector<std::string>* sentences : {&opened.notes, &opened.scene.warnings}) {
-      for (const std::string& sentence : *sentences) {
+    for (const auto& sentences : {opened.notes, opened.scene.warnings, left_out(opened.scene, opened.primary)}) {
+      for (const std::string& sentence : sentences) {
         progress_.note(sentence);
         statistics_.notes.push_back(sentence);
       }

@@ -11,11 +11,10 @@
 
 #include "base/text.h"
 #include "image/exr.h"
+#include "scene/default_lights.h"
 
 namespace luciole {
 namespace {
-
-constexpr std::size_t kMostPrimaries = 4;
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
@@ -75,14 +74,19 @@ Result<Camera> choose_camera(const Scene& scene, const std::string& text) {
                    "; not '" + text + "'"};
 }
 
-PrimaryLights take_strongest_lights(Scene& scene) {
-  const Bounds bounds = scene.bounds();
-  std::stable_sort(scene.lights.begin(), scene.lights.end(),
-                   [&](const PunctualLight& a, const PunctualLight& b) { return power(a, bounds) > power(b, bounds); });
-  const auto end = scene.lights.begin() + static_cast<std::ptrdiff_t>(std::min(kMostPrimaries, scene.lights.size()));
-  PrimaryLights primaries(scene.lights.begin(), end);
-  scene.lights.erase(scene.lights.begin(), end);
+PrimaryLights strongest_as_primary(const Scene& scene) {
+  PrimaryLights primaries;
+  for (const std::size_t index : strongest_lights(scene)) primaries.push_back(scene.lights[index]);
   return primaries;
+}
+
+std::vector<std::string> left_out(const Scene& scene, const PrimaryLights& primaries) {
+  std::size_t directional = 0;
+  for (const std::uint32_t index : other_lights(scene, primaries)) {
+    directional += scene.lights[index].kind == PunctualLight::Kind::directional;
+  }
+  if (directional == 0) return {};
+  return {std::to_string(directional) + " directional light(s) of the scene are not primary and stay dark."};
 }
 
 Result<Environment> read_environment(const std::filesystem::path& path) {

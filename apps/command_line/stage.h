@@ -3,6 +3,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 #include "real_time/reflective_shadow_map/primary_light.h"
@@ -14,9 +15,12 @@ namespace luciole {
 // field of view; "/degrees" may be left out.
 Result<Camera> choose_camera(const Scene& scene, const std::string& text);
 
-// Takes the four strongest lights out of the scene: those that get virtual point lights and shadows when the shot lists
-// no primary lights. The others stay and are many lights.
-PrimaryLights take_strongest_lights(Scene& scene);
+// The four lights of most power: those that get virtual point lights and shadows when the shot lists no primary lights.
+PrimaryLights strongest_as_primary(const Scene& scene);
+
+// What the real-time frame cannot do for this scene, a sentence each: directional lights that are not primary shine
+// not.
+std::vector<std::string> left_out(const Scene& scene, const PrimaryLights& primaries);
 
 // A sky from an equirectangular OpenEXR picture.
 Result<Environment> read_environment(const std::filesystem::path& path);
