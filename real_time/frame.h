@@ -26,10 +26,11 @@ struct FrameStatistics {
   std::vector<std::pair<std::string, double>> passes_ms;  // in the order of the frame
   double frame_ms = 0;                                    // without loading and BVH building
   std::uint64_t virtual_point_lights = 0, many_lights = 0;
-  PerPixel listed, accepted, false_positives;  // valid if Settings::count_lights
+  PerPixel listed, accepted, false_positives;  // listed: in the list of the pixel's depth half
+  PerPixel evaluated;  // of those, left to the shading kernel by the test of each group of 16 pixels
   double list_length_mean = 0, list_length_p99 = 0, list_length_max = 0;  // per list: (sub-region tile, depth half)
-  double listed_evaluations = 0;               // light x pixel pairs that the lists ask for
-  double evaluations_per_second = 0;           // of the culling-and-shading pass
+
+  double evaluations_per_second = 0;  // listed light x pixel pairs per second of culling and shading
 };
 
 struct Frame {
@@ -43,8 +44,9 @@ struct Frame {
 class Renderer {
  public:
   // Names of the layers that `render` can give: direct, indirect, indirect_from_diffuse, indirect_from_glossy,
-  // unfiltered, albedo, normal, depth, lights_listed, lights_false; with Culling::none also predicted_variance,
-  // predicted_accepted and reference (what the roulette of `settings` is expected to do, exactly).
+  // unfiltered, albedo, normal, depth, lights_listed, lights_false; and, slow, as every light is evaluated at every
+  // pixel, what the noisy light of one frame must be on average and how much it may scatter: reference,
+  // predicted_variance, predicted_accepted (of all lights that go through culling).
   static const std::vector<std::string>& layer_names();
 
   static Result<Renderer> create(std::shared_ptr<const Scene> scene, const Camera& camera, PrimaryLights primaries,

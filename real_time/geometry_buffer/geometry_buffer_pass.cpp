@@ -62,6 +62,26 @@ void write_sky(Vec3 radiance, std::size_t at, GeometryBuffer& out) {
   write_surface(nothing, kNoSurface, kNoMaterial, at, out);
 }
 
+// Starts to fetch what the surfaces of a packet are made of: first the corners of all triangles, then their vertices.
+// One pixel after the other would wait for memory 16 times over.
+void prefetch_surfaces(const Scene& scene, const HitPacket& hits) {
+  for (int lane = 0; lane < kPacketRays; ++lane) {
+    if (hits.mesh[lane] == kNoHit) continue;
+    __builtin_prefetch(&scene.meshes[hits.mesh[lane]].indices[std::size_t(hits.triangle[lane]) * 3]);
+  }
+  for (int lane = 0; lane < kPacketRays; ++lane) {
+    if (hits.mesh[lane] == kNoHit) continue;
+    const Mesh& mesh = scene.meshes[hits.mesh[lane]];
+    for (int corner = 0; corner < 3; ++corner) {
+      const std::uint32_t index = mesh.indices[std::size_t(hits.triangle[lane]) * 3 + static_cast<std::size_t>(corner)];
+      __builtin_prefetch(&mesh.positions[index]);
+      if (!mesh.normals.empty()) __builtin_prefetch(&mesh.normals[index]);
+      if (!mesh.tangents.empty()) __builtin_prefetch(&mesh.tangents[index]);
+      if (!mesh.uv[0].empty()) __builtin_prefetch(&mesh.uv[0][index]);
+    }
+  }
+}
+
 // Traces and writes the 4x4 pixels from (x0, y0) on.
 void render_packet(const GeometryBufferInputs& inputs, const ScreenRays& screen, std::uint32_t x0, std::uint32_t y0,
                    GeometryBuffer& out) {
@@ -75,6 +95,7 @@ void render_packet(const GeometryBufferInputs& inputs, const ScreenRays& screen,
   }
   const HitPacket hits = inputs.scene.intersect(rays, Coherence::coherent);
   const Scene& scene = inputs.scene.scene();
+  prefetch_surfaces(scene, hits);
   for (std::uint32_t lane = 0; lane < kPacketRays; ++lane) {
     if (rays.active[lane] == 0) continue;
     const std::size_t at = std::size_t(y0 + lane / 4) * out.width + (x0 + lane % 4);

@@ -59,17 +59,29 @@ LUCIOLE_FN void append_light(TouchingLights& list, const TileTestEllipsoid& t, s
   list.count += static_cast<std::uint32_t>(append_indices(list.index + list.count, first, chosen));
 }
 
-}  // namespace
+LUCIOLE_FN PaperTestEllipsoid load_paper_ellipsoid(const BoundBlock& b, int lane) {
+  const auto rows = [&](int r) {
+    return real3(load(b.row[r] + lane), load(b.row[r + 1] + lane), load(b.row[r + 2] + lane));
+  };
+  PaperTestEllipsoid t;
+  t.row_x = rows(BoundBlock::kPaper), t.row_y = rows(BoundBlock::kPaper + 3), t.row_z = rows(BoundBlock::kPaper + 6);
+  t.stretched = rows(BoundBlock::kPaper + 9);
+  return t;
+}
 
-void cull_tile(const BoundBlock* blocks, std::uint32_t block_count, const TileFrustum& frustum, TileTest test,
-               TouchingLights& near_half, TouchingLights& far_half) {
-  const SidePlanes sides = side_planes(frustum);
+LUCIOLE_FN Tile tile_of(const TileFrustum& f) {
   Tile tile;
-  tile.x_low = frustum.x_low, tile.x_high = frustum.x_high, tile.y_low = frustum.y_low, tile.y_high = frustum.y_high;
-  tile.near_low = frustum.near_low, tile.near_high = frustum.near_high;
-  tile.far_low = frustum.far_low, tile.far_high = frustum.far_high;
+  tile.x_low = f.x_low, tile.x_high = f.x_high, tile.y_low = f.y_low, tile.y_high = f.y_high;
+  tile.near_low = f.near_low, tile.near_high = f.near_high, tile.far_low = f.far_low, tile.far_high = f.far_high;
+  return tile;
+}
+
+template <TileTest test>
+void cull(const BoundBlock* blocks, std::uint32_t block_count, const TileFrustum& frustum, TouchingLights& near_half,
+          TouchingLights& far_half) {
+  const SidePlanes sides = side_planes(frustum);
+  const Tile tile = tile_of(frustum);
   const bool has_near = frustum.near_low <= frustum.near_high, has_far = frustum.far_low <= frustum.far_high;
-  near_half.count = far_half.count = 0;
   for (std::uint32_t b = 0; b < block_count; ++b) {
     for (int lane = 0; lane < 16; lane += kLanes) {
       const BoundBlock& block = blocks[b];
@@ -77,15 +89,39 @@ void cull_tile(const BoundBlock* blocks, std::uint32_t block_count, const TileFr
           real3(load(block.row[BoundBlock::kCentreX] + lane), load(block.row[BoundBlock::kCentreY] + lane),
                 load(block.row[BoundBlock::kCentreZ] + lane));
       const real radius = load(block.row[BoundBlock::kRadius] + lane);
-      const mask candidates = sphere_may_touch(sides, centre, radius) && radius >= 0.0f;
+      // The paper's test stands alone, so that its lists are the paper's.
+      const mask candidates =
+          test == TileTest::paper ? radius >= 0.0f : sphere_may_touch(sides, centre, radius) && radius >= 0.0f;
       if (!any(candidates)) continue;
       const TileTestEllipsoid t = load_ellipsoid(block, lane);
-      HalfMasks touches = test == TileTest::paper ? ellipsoid_touches_tile(t, tile) : ellipsoid_touches_tile(t, tile);
+      HalfMasks touches;
+      if constexpr (test == TileTest::paper) {
+        touches = touches_tile_as_paper(load_paper_ellipsoid(block, lane), tile);
+      } else if constexpr (test == TileTest::exact) {
+        touches = ellipsoid_touches_tile_exactly(t, tile);
+      } else {
+        touches = ellipsoid_touches_tile(t, tile);
+      }
       const std::uint32_t first = b * 16 + static_cast<std::uint32_t>(lane);
       const mask near_hits = candidates && touches.near_half, far_hits = candidates && touches.far_half;
       if (has_near && any(near_hits)) append_light(near_half, t, first, near_hits);
       if (has_far && any(far_hits)) append_light(far_half, t, first, far_hits);
     }
+  }
+}
+
+}  // namespace
+
+void cull_tile(const BoundBlock* blocks, std::uint32_t block_count, const TileFrustum& frustum, TileTest test,
+               TouchingLights& near_half, TouchingLights& far_half) {
+  near_half.count = far_half.count = 0;
+  switch (test) {
+    case TileTest::paper:
+      return cull<TileTest::paper>(blocks, block_count, frustum, near_half, far_half);
+    case TileTest::exact:
+      return cull<TileTest::exact>(blocks, block_count, frustum, near_half, far_half);
+    default:
+      return cull<TileTest::tight>(blocks, block_count, frustum, near_half, far_half);
   }
 }
 

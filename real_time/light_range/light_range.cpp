@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "equations/cpp/float.h"
+#include "real_time/fold_seed.h"
 #include "real_time/kernels.h"
 
 namespace luciole {
@@ -12,12 +13,8 @@ namespace {
 
 constexpr std::uint32_t kDimensionSubset = 2, kDimensionStratum = 3;
 
-std::uint32_t fold(std::uint64_t value) {
-  return static_cast<std::uint32_t>(value) ^ (static_cast<std::uint32_t>(value >> 32) * 0x9e3779b9u);
-}
-
 std::uint32_t frame_bits(const FrameKey& key, std::uint32_t dimension) {
-  return f32::random_words(fold(key.seed), fold(key.frame_index), 0u, dimension).first;
+  return f32::random_words(folded(key.seed), folded(key.frame_index), 0u, dimension).first;
 }
 
 void copy(Vec3 from, float (&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
@@ -96,13 +93,14 @@ RangeParameters range_parameters(const Settings& settings, const Camera& camera,
                                  float constant_xi) {
   RangeParameters p{};
   p.exposure_over_delta = settings.exposure / settings.delta;
-  p.seed = fold(key.seed);
-  p.frame = fold(key.frame_index);
+  p.seed = folded(key.seed);
+  p.frame = folded(key.frame_index);
   p.constant_xi = constant_xi;
   p.stratified = settings.stratified_ranges;
   p.stratum_shift = frame_bits(key, kDimensionStratum);
   p.disc = settings.near_field == NearField::disc;
   p.bounds = settings.bounds;
+  p.paper_rows = settings.tile_test == TileTest::paper;
   copy(camera.eye, p.eye), copy(camera.right, p.right), copy(camera.up, p.up), copy(camera.forward, p.forward);
   return p;
 }

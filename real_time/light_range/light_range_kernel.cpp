@@ -62,21 +62,38 @@ LUCIOLE_FN BoundingEllipsoid ellipsoid_of(BoundingSphere sphere) {
   return e;
 }
 
-LUCIOLE_FN void store_bound(const ViewFrame& view, BoundingEllipsoid e, real3 position, real3 normal, mask reaches,
-                            BoundBlock& block, int lane) {
-  const TileTestEllipsoid t = prepare_ellipsoid(view, e, surface_plane(view, position, normal));
-  const real radius = max(max(e.r_u, e.r_v), e.r_w) * 1.0001f + 4e-6f * length(t.centre);
-  const auto put = [&](BoundBlock::Row row, real value) { store(block.row[row] + lane, value); };
-  put(BoundBlock::kCentreX, t.centre.x), put(BoundBlock::kCentreY, t.centre.y), put(BoundBlock::kCentreZ, t.centre.z);
-  put(BoundBlock::kRadius, select(reaches, radius, real(-1.0f)));
-  put(BoundBlock::kM00, t.factor.m00), put(BoundBlock::kM01, t.factor.m01), put(BoundBlock::kM02, t.factor.m02);
-  put(BoundBlock::kM11, t.factor.m11), put(BoundBlock::kM12, t.factor.m12), put(BoundBlock::kM22, t.factor.m22);
-  put(BoundBlock::kStretchedX, t.stretched.x), put(BoundBlock::kStretchedY, t.stretched.y);
-  put(BoundBlock::kStretchedZ, t.stretched.z);
-  put(BoundBlock::kNormalX, t.surface.normal.x), put(BoundBlock::kNormalY, t.surface.normal.y);
-  put(BoundBlock::kNormalZ, t.surface.normal.z), put(BoundBlock::kNormalOffset, t.surface.offset - 1e-30f);
-  put(BoundBlock::kSxx, t.sxx), put(BoundBlock::kSxz, t.sxz), put(BoundBlock::kSyy, t.syy);
-  put(BoundBlock::kSyz, t.syz), put(BoundBlock::kSzz, t.szz);
+LUCIOLE_FN void store_row(BoundBlock& block, int row, int lane, real value) { store(block.row[row] + lane, value); }
+LUCIOLE_FN void store_rows(BoundBlock& block, int row, int lane, real3 value) {
+  store_row(block, row, lane, value.x), store_row(block, row + 1, lane, value.y),
+      store_row(block, row + 2, lane, value.z);
+}
+
+LUCIOLE_FN void store_paper_rows(const ViewFrame& view, BoundingEllipsoid e, BoundBlock& block, int lane) {
+  const PaperTestEllipsoid t = prepare_ellipsoid_as_paper(view, e);
+  store_rows(block, BoundBlock::kPaper, lane, t.row_x), store_rows(block, BoundBlock::kPaper + 3, lane, t.row_y);
+  store_rows(block, BoundBlock::kPaper + 6, lane, t.row_z),
+      store_rows(block, BoundBlock::kPaper + 9, lane, t.stretched);
+}
+
+LUCIOLE_FN void store_test_rows(const TileTestEllipsoid& t, BoundBlock& block, int lane) {
+  store_rows(block, BoundBlock::kM00, lane, real3(t.factor.m00, t.factor.m01, t.factor.m02));
+  store_rows(block, BoundBlock::kM11, lane, real3(t.factor.m11, t.factor.m12, t.factor.m22));
+  store_rows(block, BoundBlock::kStretchedX, lane, t.stretched);
+  store_rows(block, BoundBlock::kNormalX, lane, t.surface.normal);
+  // A light at the eye without a plane has offset 0, and must pass.
+  store_row(block, BoundBlock::kNormalOffset, lane, t.surface.offset - 1e-30f);
+  store_rows(block, BoundBlock::kSxx, lane, real3(t.sxx, t.sxz, t.syy));
+  store_row(block, BoundBlock::kSyz, lane, t.syz), store_row(block, BoundBlock::kSzz, lane, t.szz);
+}
+
+LUCIOLE_FN void store_bound(const RangeParameters& p, const ViewFrame& view, BoundingEllipsoid e, real3 position,
+                            real3 normal, mask reaches, BoundBlock& block, int lane) {
+  const real3 centre = view_from_world(view, e.centre);
+  const real radius = max(max(e.r_u, e.r_v), e.r_w) * 1.0001f + 4e-6f * length(centre);
+  store_rows(block, BoundBlock::kCentreX, lane, centre);
+  store_row(block, BoundBlock::kRadius, lane, select(reaches, radius, real(-1.0f)));
+  if (p.paper_rows) return store_paper_rows(view, e, block, lane);
+  store_test_rows(prepare_ellipsoid(view, e, surface_plane(view, position, normal)), block, lane);
 }
 
 // One value per lane, to be written into structures one light at a time.
@@ -124,7 +141,7 @@ LUCIOLE_FN BoundingEllipsoid glossy_bound(const RangeParameters& p, GlossyLobe l
     case BoundingVolume::spheroid:
       return bounding_spheroid(lobe, size);
     default:
-      return fitted_ellipsoid(lobe, size);
+      return tight_ellipsoid(lobe, f0_bound, f90, flux_per_threshold);
   }
 }
 
@@ -142,7 +159,7 @@ void reach_diffuse(const VplPlanes& lights, const RangeParameters& p, std::uint3
     const real xi = xi_of(p, light_bits(p, lights.key, lanes, first % step, step, kDimensionVpl));
     const real scale = peak_over_delta(p, intensity);
     const mask reaches = first_lanes(static_cast<std::uint32_t>(lanes_in_use(lane, count))) && scale > 0.0f;
-    store_bound(view, diffuse_bound(p, position, normal, diffuse_peak_flux(scale, f0_max, f90) / xi), position,
+    store_bound(p, view, diffuse_bound(p, position, normal, diffuse_peak_flux(scale, f0_max, f90) / xi), position,
                 geometric_normal, reaches, bounds, lane);
     const Column3 c_position(position), c_normal(normal), c_geometric(geometric_normal), c_incident(incident);
     const Column3 c_intensity(intensity);
@@ -171,7 +188,7 @@ void reach_glossy(const VplPlanes& lights, const RangeParameters& p, std::uint32
     const GlossyLobe lobe = glossy_lobe(position, normal, incident, alpha);
     const mask reaches = first_lanes(static_cast<std::uint32_t>(lanes_in_use(lane, count))) &&
                          largest_channel(flux) * max(largest_channel(f0), f90) > 0.0f;
-    store_bound(view, glossy_bound(p, lobe, flux, f0, f90, xi), position, geometric_normal, reaches, bounds, lane);
+    store_bound(p, view, glossy_bound(p, lobe, flux, f0, f90, xi), position, geometric_normal, reaches, bounds, lane);
     SurfaceBrdf surface;
     surface.f0 = f0, surface.f90 = f90, surface.ggx_alpha = alpha;
     const FixedDirectionBrdf fixed = fix_direction(surface, normal, incident);
@@ -213,7 +230,7 @@ void reach_many(const ManyPlanes& lights, const RangeParameters& p, std::uint32_
       sphere.radius = select(lambert, tight.radius, sphere.radius);
     }
     const real3 plane = select(one_sided, axis, real3(0.0f, 0.0f, 0.0f));
-    store_bound(view, ellipsoid_of(sphere), position, plane, reaches, bounds, lane);
+    store_bound(p, view, ellipsoid_of(sphere), position, plane, reaches, bounds, lane);
     const Column3 c_position(position), c_axis(axis), c_intensity(intensity);
     const Column c_peak(peak), c_xi(xi), c_scale(scale), c_offset(offset), c_two(two_sided), c_squared(squared);
     const Column c_disc(disc_of(p, gather1(lights.area, lanes)));

@@ -17,6 +17,7 @@ struct RangeParameters {
   std::uint32_t stratum_shift;
   bool disc;  // near field
   BoundingVolume bounds;
+  bool paper_rows;                            // prepare bounds for the paper's tile test
   float eye[3], right[3], up[3], forward[3];  // view frame
 };
 

@@ -69,7 +69,9 @@ struct alignas(64) BoundBlock {
     kSyy,
     kSyz,
     kSzz,  // Sigma                                                     [m^2]
-    kRows
+    kRows,
+    // For the paper's tile test instead: the rows of B S and the stretched centre (equations/paper_tile_test.h).
+    kPaper = kM00
   };
   float row[kRows][16];
 };

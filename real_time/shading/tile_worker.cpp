@@ -70,7 +70,8 @@ void TileWorker::list_lights_of_groups(std::uint32_t subset_lights) {
     }
     std::uint32_t* list = group_lists_.data() + begin;
     std::uint32_t count = lights.count;
-    if (inputs_.settings.culling == Culling::none) {
+    // The group test is ours: the paper's lists are shaded as they are.
+    if (inputs_.settings.culling == Culling::none || inputs_.settings.tile_test == TileTest::paper) {
       std::copy(lights.index, lights.index + count, list);
     } else {
       count = LUCIOLE_FOR_ISA(inputs_.settings.isa, cull_group(lights, group, list));

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "real_time/frame.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "base/parallel.h"
+#include "ray_tracing/ray_scene.h"
+#include "real_time/composition.h"
+#include "real_time/direct_light/direct_light.h"
+#include "real_time/filtering/bilateral_filter.h"
+#include "real_time/geometry_buffer/geometry_buffer_pass.h"
+#include "real_time/light_range/clamped_range.h"
+#include "real_time/light_range/light_range.h"
+#include "real_time/many_lights/many_lights.h"
+#include "real_time/shading/prediction.h"
+#include "real_time/shading/shading_pass.h"
+#include "real_time/virtual_point_lights/place_lights.h"
+
+namespace luciole {
+namespace {
+
+class PassTimer {
+ public:
+  explicit PassTimer(FrameStatistics& statistics) : statistics_(statistics) {}
+  // The time since the last call (or construction) belongs to this pass.
+  void end(const std::string& pass) {
+    const auto now = std::chrono::steady_clock::now();
+    statistics_.passes_ms.emplace_back(pass, std::chrono::duration<double, std::milli>(now - last_).count());
+    last_ = now;
+  }
+
+ private:
+  FrameStatistics& statistics_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+bool wants(const std::vector<std::string>& layers, const std::string& name) {
+  return std::find(layers.begin(), layers.end(), name) != layers.end();
+}
+
+bool wants_prediction(const std::vector<std::string>& layers) {
+  return wants(layers, "reference") || wants(layers, "predicted_variance") || wants(layers, "predicted_accepted");
+}
+
+void count_lights(const ShadingOutputs& shaded, FrameStatistics& statistics) {
+  const double pixels = std::max<double>(1.0, static_cast<double>(shaded.pixels));
+  const auto per_pixel = [&](auto count) {
+    return PerPixel{count(shaded.diffuse) / pixels, count(shaded.glossy) / pixels, count(shaded.many) / pixels};
+  };
+  statistics.listed = per_pixel([](const LightCounts& c) { return static_cast<double>(c.listed); });
+  statistics.accepted = per_pixel([](const LightCounts& c) { return static_cast<double>(c.accepted); });
+  statistics.false_positives =
+      per_pixel([](const LightCounts& c) { return static_cast<double>(c.listed - c.accepted); });
+  statistics.evaluated = per_pixel([](const LightCounts& c) { return static_cast<double>(c.evaluated); });
+  std::vector<std::uint32_t> lengths = shaded.list_lengths;
+  if (lengths.empty()) return;
+  double sum = 0;
+  for (std::uint32_t length : lengths) sum += length;
+  const auto p99 = lengths.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(lengths.size() - 1));
+  std::nth_element(lengths.begin(), p99, lengths.end());
+  statistics.list_length_p99 = *p99;
+  statistics.list_length_mean = sum / static_cast<double>(lengths.size());
+  statistics.list_length_max = *std::max_element(lengths.begin(), lengths.end());
+}
+
+// The wall time of culling and shading, split by what the threads spent on each.
+void time_shading(const ShadingOutputs& shaded, double wall_ms, FrameStatistics& statistics) {
+  const double busy = std::max(shaded.culling_seconds + shaded.shading_seconds, 1e-9);
+  statistics.passes_ms.emplace_back("culling", wall_ms * shaded.culling_seconds / busy);
+  statistics.passes_ms.emplace_back("shading", wall_ms * shaded.shading_seconds / busy);
+  const double pairs = static_cast<double>(shaded.diffuse.listed + shaded.glossy.listed + shaded.many.listed);
+  statistics.evaluations_per_second = pairs / std::max(wall_ms * 1e-3, 1e-9);
+}
+
+}  // namespace
+
+// What frames of an unmoved camera and unmoved lights have in common.
+struct View {
+  GeometryBuffer geometry;
+  VirtualPointLights vpls;
+  Plane3 direct;
+  std::vector<std::pair<std::string, double>> passes_ms;
+};
+
+struct Renderer::State {
+  State(RayScene scene, const Camera& camera_, PrimaryLights primaries_, const Settings& settings_)
+      : rays(std::move(scene)), camera(camera_), primaries(std::move(primaries_)), settings(settings_) {}
+
+  const View& view(std::uint64_t frame_index);
+  float constant_xi(const View& seen, const ManyLights& many_lights, const FrameKey& key);
+  ShadingOutputs shade_lights(std::uint64_t frame_index, const std::vector<std::string>& layers, Frame& frame,
+                              Prediction& prediction);
+
+  RayScene rays;
+  Camera camera;
+  PrimaryLights primaries;
+  Settings settings;
+  double bvh_build_ms = 0;
+  std::optional<View> cached;
+  std::optional<float> clamped;  // xi of Ranges::clamped for this view
+  BilateralFilterPass filter_indirect, filter_many;
+};
+
+const View& Renderer::State::view(std::uint64_t frame_index) {
+  if (cached && !settings.jitter) return *cached;
+  cached.emplace();
+  FrameStatistics times;
+  PassTimer timer(times);
+  const Vec2 sub_pixel = settings.jitter ? jittered_sub_pixel(settings.seed, frame_index) : Vec2(0.5f, 0.5f);
+  render_geometry_buffer({rays, camera, settings.width, settings.height, sub_pixel}, cached->geometry);
+  timer.end("geometry_buffer");
+  std::vector<SurfaceTexel> texels;
+  ReflectiveShadowMaps(primaries, rays.bounds(), settings.vpls)
+      .render(rays, {settings.vpl_seed, settings.jitter, frame_index}, texels);
+  timer.end("reflective_shadow_map");
+  place_virtual_point_lights(texels, cached->vpls);
+  timer.end("virtual_point_lights");
+  cached->direct = direct_light(rays, cached->geometry, primaries, settings.isa);
+  timer.end("direct_light");
+  cached->passes_ms = times.passes_ms;
+  return *cached;
+}
+
+// Lights of one frame that have their ranges.
+struct Reached {
+  ReachingLights<DiffuseEmitter> diffuse;
+  ReachingLights<GlossyEmitter> glossy;
+  ReachingLights<ManyEmitter> many;
+
+  Reached(const View& seen, const ManyLights& many_lights, const RangeParameters& range, const Settings& settings)
+      : diffuse(reach_diffuse_lobes(seen.vpls, range, settings.interleave, settings.isa)),
+        glossy(reach_glossy_lobes(seen.vpls, range, settings.interleave, settings.isa)),
+        many(reach_many_lights(many_lights, range, settings.interleave, settings.isa)) {}
+};
+
+// The xi that all lights share; negative: each draws its own.
+float Renderer::State::constant_xi(const View& seen, const ManyLights& many_lights, const FrameKey& key) {
+  switch (settings.ranges) {
+    case Ranges::infinite:
+      return 0.0f;
+    case Ranges::clamped_bound:  // [TH16] Appendix A: r^2 = E N I / (pi eps) with delta = 2 pi eps is xi = 1 / (2 N)
+      return 0.5f / static_cast<float>(std::max<std::size_t>(1, seen.vpls.size() + many_lights.size()));
+    case Ranges::clamped: {
+      if (clamped) return *clamped;
+      const Reached reached(seen, many_lights, range_parameters(settings, camera, key, -1.0f), settings);
+      clamped = clamped_xi({seen.geometry, reached.diffuse, reached.glossy, reached.many, settings});
+      return *clamped;
+    }
+    default:
+      return -1.0f;
+  }
+}
+
+ShadingOutputs Renderer::State::shade_lights(std::uint64_t frame_index, const std::vector<std::string>& layers,
+                                             Frame& frame, Prediction& prediction) {
+  const View& seen = view(frame_index);
+  frame.statistics.passes_ms = seen.passes_ms;
+  PassTimer timer(frame.statistics);
+  const ManyLights many_lights = make_many_lights(rays.scene(), primaries, settings, frame_index);
+  timer.end("many_lights");
+  const FrameKey key{settings.seed, frame_index};
+  const Reached reached(seen, many_lights, range_parameters(settings, camera, key, constant_xi(seen, many_lights, key)),
+                        settings);
+  timer.end("light_range");
+  frame.statistics.virtual_point_lights = seen.vpls.size();
+  frame.statistics.many_lights = many_lights.size();
+  const ShadingInputs inputs{seen.geometry,
+                             reached.diffuse,
+                             reached.glossy,
+                             reached.many,
+                             settings,
+                             subset_shift(key, settings.interleave),
+                             settings.direct_shadows ? &rays : nullptr,
+                             wants(layers, "lights_listed") || wants(layers, "lights_false")};
+  const auto start = std::chrono::steady_clock::now();
+  ShadingOutputs shaded = shade(inputs);
+  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+  time_shading(shaded, wall.count(), frame.statistics);
+  count_lights(shaded, frame.statistics);
+  if (wants_prediction(layers)) prediction = predict(inputs);
+  return shaded;
+}
+
+const std::vector<std::string>& Renderer::layer_names() { return composition_layers(); }
+
+Result<Renderer> Renderer::create(std::shared_ptr<const Scene> scene, const Camera& camera, PrimaryLights primaries,
+                                  const Settings& wanted) {
+  Settings settings = wanted;
+  const Result<Isa> isa = choose_isa(settings.isa);
+  if (!isa) return isa.error();
+  settings.isa = *isa;
+  if (settings.ranges == Ranges::infinite) settings.culling = Culling::none;  // nothing can be culled
+  const auto start = std::chrono::steady_clock::now();
+  Result<RayScene> rays = RayScene::create(std::move(scene), {.isa = to_string(settings.isa)});
+  if (!rays) return rays.error();
+  auto state = std::make_unique<State>(std::move(*rays), camera, std::move(primaries), settings);
+  state->bvh_build_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return Renderer(std::move(state));
+}
+
+Result<Frame> Renderer::render(std::uint64_t frame_index, const std::vector<std::string>& layers) {
+  Frame frame;
+  frame.width = state_->settings.width, frame.height = state_->settings.height;
+  Prediction prediction;
+  const ShadingOutputs shaded = state_->shade_lights(frame_index, layers, frame, prediction);
+  const View& seen = *state_->cached;
+  PassTimer timer(frame.statistics);
+  const bool filtered = state_->settings.filter == Filter::bilateral;
+  const Radiance noisy = sum(shaded.radiance.from_diffuse, shaded.radiance.from_glossy);
+  const BilateralFilterPass::Inputs common{seen.geometry, noisy, filter_radius(state_->settings.interleave),
+                                           state_->settings.isa};
+  BilateralFilterPass::Inputs for_many{seen.geometry, shaded.radiance.from_many, common.radius, common.isa};
+  const Radiance& indirect = filtered ? state_->filter_indirect.run(common) : noisy;
+  const Radiance& many = filtered ? state_->filter_many.run(for_many) : shaded.radiance.from_many;
+  timer.end("filtering");
+  compose({seen.geometry, seen.direct, indirect, many, noisy, shaded.radiance, shaded, prediction}, layers, frame);
+  timer.end("composition");
+  for (const auto& [pass, ms] : frame.statistics.passes_ms) frame.statistics.frame_ms += ms;
+  if (stop_requested()) return Error{ErrorKind::failed, "the frame was interrupted"};
+  return frame;
+}
+
+void Renderer::set_camera(const Camera& camera) {
+  state_->camera = camera;
+  state_->cached.reset();
+  state_->clamped.reset();
+}
+const Settings& Renderer::settings() const { return state_->settings; }
+double Renderer::bvh_build_ms() const { return state_->bvh_build_ms; }
+
+Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+}  // namespace luciole

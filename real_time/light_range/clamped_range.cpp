@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "real_time/light_range/clamped_range.h"
+
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "base/parallel.h"
+#include "real_time/kernels.h"
+#include "real_time/light_culling/tile.h"
+#include "real_time/shading/predict_kernel.h"
+#include "real_time/shading/shade_kernel.h"
+
+namespace luciole {
+namespace {
+
+constexpr std::uint32_t kSampledGroups = 96;  // of 16 pixels, spread evenly over the picture
+constexpr int kBisections = 16;               // of log2(xi) over 32: xi to 0.04 %
+
+std::vector<PixelGroup> sample_groups(const GeometryBuffer& geometry) {
+  const std::uint32_t tiles_x = (geometry.width + kTileSide - 1) / kTileSide;
+  const std::uint32_t tiles = tiles_x * ((geometry.height + kTileSide - 1) / kTileSide);
+  std::vector<PixelGroup> groups;
+  ScreenTile tile;
+  for (std::uint32_t i = 0; i < kSampledGroups; ++i) {
+    const auto at = static_cast<std::uint32_t>(std::uint64_t{i} * tiles / kSampledGroups);
+    read_tile(geometry, {1, at % tiles_x, at / tiles_x, 0, 0}, tile);
+    if (tile.group_count > 0) groups.push_back(tile.groups[i * 7 % tile.group_count]);
+  }
+  return groups;
+}
+
+// Emitters of all subsets side by side, with a xi of their own.
+template <class Emitter>
+class Trial {
+ public:
+  explicit Trial(const ReachingLights<Emitter>& lights) {
+    for (std::size_t s = 0; s < lights.begin.size(); ++s) {
+      const auto first = lights.emitters.begin() + lights.begin[s];
+      emitters_.insert(emitters_.end(), first, first + lights.count[s]);
+    }
+    index_.resize(emitters_.size());
+    std::iota(index_.begin(), index_.end(), 0u);
+  }
+  const AlignedVector<Emitter>& emitters() const { return emitters_; }
+  void set_xi(float xi) {
+    for (Emitter& emitter : emitters_) emitter.xi = xi;
+  }
+  double count_accepted(const PixelGroup& group, Isa isa) const {
+    std::vector<std::uint16_t> lanes(emitters_.size());
+    const LightList<Emitter> list{emitters_.data(), index_.data(), static_cast<std::uint32_t>(index_.size()), nullptr};
+    LUCIOLE_FOR_ISA(isa, accepted_lanes(group, list, lanes.data()));
+    const std::uint32_t used = (1u << group.count) - 1u;
+    double count = 0;
+    for (std::uint16_t bits : lanes) count += std::popcount(bits & used);
+    return count;
+  }
+
+ private:
+  AlignedVector<Emitter> emitters_;
+  std::vector<std::uint32_t> index_;
+};
+
+class Sample {
+ public:
+  explicit Sample(const ShadingInputs& inputs)
+      : isa_(inputs.settings.isa),
+        groups_(sample_groups(inputs.geometry)),
+        diffuse_(inputs.diffuse),
+        glossy_(inputs.glossy),
+        many_(inputs.many) {}
+
+  // What stochastic ranges accept on average: the sum of p.
+  double expected() const {
+    return over_groups([&](const PixelGroup& group) {
+      const SubsetLights lights{diffuse_.emitters().data(), glossy_.emitters().data(),
+                                static_cast<std::uint32_t>(diffuse_.emitters().size()), many_.emitters().data(),
+                                static_cast<std::uint32_t>(many_.emitters().size())};
+      alignas(64) const float albedo[3][kGroupPixels] = {};
+      GroupPrediction prediction;
+      LUCIOLE_FOR_ISA(isa_, predict_group(group, albedo, lights, prediction));
+      return std::accumulate(prediction.accepted, prediction.accepted + group.count, 0.0);
+    });
+  }
+  double accepted(float xi) {
+    diffuse_.set_xi(xi), glossy_.set_xi(xi), many_.set_xi(xi);
+    return over_groups([&](const PixelGroup& group) {
+      return diffuse_.count_accepted(group, isa_) + glossy_.count_accepted(group, isa_) +
+             many_.count_accepted(group, isa_);
+    });
+  }
+
+ private:
+  // Sums of integers, or in the order of the groups: the same for any number of threads.
+  template <class Count>
+  double over_groups(const Count& count) const {
+    std::vector<double> counts(groups_.size());
+    parallel_for(groups_.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t g = begin; g < end; ++g) counts[g] = count(groups_[g]);
+    });
+    return std::accumulate(counts.begin(), counts.end(), 0.0);
+  }
+
+  Isa isa_;
+  std::vector<PixelGroup> groups_;
+  Trial<DiffuseEmitter> diffuse_;
+  Trial<GlossyEmitter> glossy_;
+  Trial<ManyEmitter> many_;
+};
+
+}  // namespace
+
+float clamped_xi(const ShadingInputs& inputs) {
+  Sample sample(inputs);
+  const double target = sample.expected();
+  float low = -32, high = 0;  // log2 of xi: fewer lights are accepted as it grows
+  for (int i = 0; i < kBisections; ++i) {
+    const float middle = 0.5f * (low + high);
+    (sample.accepted(std::exp2(middle)) > target ? low : high) = middle;
+  }
+  return std::exp2(0.5f * (low + high));
+}
+
+}  // namespace luciole
