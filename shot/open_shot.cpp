@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shot/open_shot.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "scene/default_lights.h"
 #include "scene/framing_camera.h"
 #include "scene/load_scene.h"
@@ -16,7 +19,25 @@ Result<Scene> load(const Shot& shot, const SearchFolders& folders) {
   return load_scene(*path);
 }
 
+// The same in another spelling: degrees against radians, a target against a direction.
+bool is_repeated(const PunctualLight& a, const PunctualLight& b) {
+  constexpr float kSpelling = 1e-4f;
+  const auto near = [](Vec3 u, Vec3 v) { return length(u - v) <= kSpelling * (length(u) + length(v)); };
+  if (a.kind != b.kind || !near(a.intensity, b.intensity)) return false;
+  const bool placed = a.kind != PunctualLight::Kind::directional, aimed = a.kind != PunctualLight::Kind::point;
+  if ((placed && !near(a.position, b.position)) || (aimed && !near(a.direction, b.direction))) return false;
+  return a.kind != PunctualLight::Kind::spot ||
+         (std::abs(a.cos_inner - b.cos_inner) <= kSpelling && std::abs(a.cos_outer - b.cos_outer) <= kSpelling);
+}
+
 }  // namespace
+
+void remove_repeated_lights(Scene& scene, const std::vector<PunctualLight>& primary) {
+  std::erase_if(scene.lights, [&primary](const PunctualLight& light) {
+    return std::any_of(primary.begin(), primary.end(),
+                       [&light](const PunctualLight& listed) { return is_repeated(listed, light); });
+  });
+}
 
 void scale_scene(Scene& scene, float metres_per_unit) {
   if (metres_per_unit == 1) return;
@@ -81,6 +102,7 @@ Result<OpenedShot> open_shot(const Shot& shot, const SearchFolders& folders) {
   Scene& scene = opened.scene;
   if (scene.triangle_count() == 0) return Error{ErrorKind::bad_scene, shot.scene + ": the scene has no triangle"};
   if (shot.environment) scene.environment = Environment{*shot.environment, 0, 0, {}};
+  remove_repeated_lights(scene, shot.primary);
   if (shot.primary.empty()) {
     const std::string added = add_default_lights(scene);
     if (!added.empty()) opened.notes.push_back(added);

@@ -25,6 +25,10 @@ Result<Scene> load_shot_scene(const Shot& shot, const SearchFolders& folders);
 // emissive, sky) the sun and sky of scene/default_lights.h. Both are notes. A scene without a triangle is refused.
 Result<OpenedShot> open_shot(const Shot& shot, const SearchFolders& folders);
 
+// Removes the scene's lights that the shot repeats as primary (within 1e-4 of their values): the shot means them, and
+// they must not shine twice.
+void remove_repeated_lights(Scene& scene, const std::vector<PunctualLight>& primary);
+
 // Moves positions of meshes, lights and cameras from file units to metres. Light units stay as they are.
 void scale_scene(Scene& scene, float metres_per_unit);
 

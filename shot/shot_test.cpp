@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "real_time/settings_text.h"
 #include "shot/open_shot.h"
 
 namespace luciole {
@@ -122,6 +123,63 @@ TEST(MaterialOverride, a_pattern_without_any_match_is_refused) {
   EXPECT_LT(scene.materials[0].metallic_override, 0);
   EXPECT_LT(scene.materials[1].ggx_alpha_override, 0);
   EXPECT_FALSE(override_materials(scene, {{"brsas", 0.2f, std::nullopt}}).has_value());
+}
+
+TEST(OpenShot, a_light_that_the_shot_repeats_does_not_shine_twice) {
+  const char* const text = R"(
+scene = "recipe:cornell"
+[[primary]]
+kind = "spot"
+position = [0.0, 1.98, 0.0]
+target = [0.0, 0.0, 0.0]
+intensity = [4, 3.6, 3]
+inner_degrees = 60
+outer_degrees = 88
+)";
+  const Result<Shot> shot = parse_shot(text, "box.toml");
+  ASSERT_TRUE(shot.has_value()) << shot.error().message;
+  const Result<OpenedShot> opened = open_shot(*shot, {});
+  ASSERT_TRUE(opened.has_value()) << opened.error().message;
+  EXPECT_EQ(opened->scene.lights.size(), 0u);
+  Shot brighter = *shot;
+  brighter.primary[0].intensity.x = 5;
+  EXPECT_EQ(open_shot(brighter, {})->scene.lights.size(), 1u);
+}
+
+TEST(OpenShot, what_a_scene_lacks_is_filled_in_and_said) {
+  Shot shot;
+  shot.scene = "recipe:cornell";
+  const Result<OpenedShot> opened = open_shot(shot, {});
+  ASSERT_TRUE(opened.has_value()) << opened.error().message;
+  EXPECT_TRUE(opened->notes.empty());
+  EXPECT_EQ(opened->scene.lights.size(), 1u);
+  shot.scale = 3;
+  const Result<OpenedShot> larger = open_shot(shot, {});
+  EXPECT_FLOAT_EQ(larger->scene.bounds().diagonal(), 3 * opened->scene.bounds().diagonal());
+  EXPECT_FLOAT_EQ(larger->camera.eye.z, 3 * opened->camera.eye.z);
+}
+
+// Shots that ship must be right without anybody rendering them; their scene files may be elsewhere.
+TEST(BundledShots, are_all_understood) {
+  const SearchFolders folders{{std::filesystem::path(LUCIOLE_SOURCE_DIR) / "shots"}, {}};
+  const std::vector<std::string> names = shot_names(folders);
+  EXPECT_GE(names.size(), 5u);
+  for (const std::string& name : names) {
+    const Result<Shot> shot = find_shot(name, folders);
+    ASSERT_TRUE(shot.has_value()) << shot.error().message;
+    EXPECT_TRUE(shot->camera.has_value()) << name;
+    const Result<Settings> settings = settings_from(shot->settings, {});
+    EXPECT_TRUE(settings.has_value()) << name << ": " << settings.error().message;
+  }
+}
+
+TEST(FindShot, an_unknown_name_lists_the_shots_that_exist) {
+  const SearchFolders folders{{std::filesystem::path(LUCIOLE_SOURCE_DIR) / "shots"}, {}};
+  const Result<Shot> shot = find_shot("no-such-shot", folders);
+  ASSERT_FALSE(shot.has_value());
+  EXPECT_NE(shot.error().message.find("cornell"), std::string::npos) << shot.error().message;
+  EXPECT_FALSE(find_shot("nowhere/scene.gltf", folders).has_value());
+  EXPECT_FALSE(find_shot(LUCIOLE_SOURCE_DIR, folders).has_value());
 }
 
 }  // namespace

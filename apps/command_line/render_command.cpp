@@ -47,6 +47,7 @@ class Run {
     Result<Renderer> renderer = prepare();
     if (!renderer) return stopped_or(renderer.error());
     statistics_.bvh_ms = renderer->bvh_build_ms();
+    statistics_.settings = renderer->settings();
     for (std::uint64_t index = plan_.frames.first; index <= plan_.frames.last && !stop_requested(); ++index) {
       if (Status status = render_one(*renderer, index); !status) return stopped_or(status.error());
     }
@@ -84,7 +85,6 @@ class Run {
 
   void tell(const OpenedShot& opened) {
     statistics_.shot = options_.shot;
-    statistics_.settings = plan_.settings;
     statistics_.threads = thread_count();
     statistics_.primary_lights = opened.primary.size();
     for (const auto& sentences : {opened.notes, opened.scene.warnings, left_out(opened.scene, opened.primary)}) {
@@ -107,6 +107,7 @@ class Run {
       if (stop_requested()) break;  // the frame may have holes
       if (!frame) return frame.error();
       tell(frame->statistics);
+      frame->layers.set_colours("", frame->picture);
       statistics_.frames.emplace_back(index * options_.accumulate + complete, frame->statistics);
       if (options_.accumulate == 1) {
         picture = std::move(frame->layers);

@@ -54,8 +54,7 @@ void declare_options(CLI::App& command, RenderOptions& options) {
       ->required();
   command.add_option("-o,--output", options.outputs, "FILE.exr (linear, layers) or FILE.png; may be repeated")
       ->required()
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   command.add_option("--scenes", options.scenes, "folder of scenes (else $LUCIOLE_SCENES, else ./scenes)");
   command.add_option("--camera", options.camera, "x,y,z/x,y,z/degrees (eye, target, field of view), or name or index");
   command.add_option("--environment", options.environment, "sky: equirectangular FILE.exr");
@@ -65,7 +64,7 @@ void declare_options(CLI::App& command, RenderOptions& options) {
   command
       .add_option("--layers", options.layers, "layers of the .exr: " + joined(Renderer::layer_names()) + ", variance")
       ->delimiter(',')
-      ->expected(1);
+      ->allow_extra_args(false);
   command.add_option("--tone-curve", options.tone_curve, "of .png: pbr-neutral|linear")->default_str("pbr-neutral");
   command.add_option("--statistics", options.statistics, "write times and light counts to FILE.json");
   command.add_option("--threads", options.threads, "threads (0: all)")->check(CLI::Range(0, 1024));

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs the program as a user does: what it writes, what it says, and what it leaves behind.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "image/exr.h"
+
+namespace luciole {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+struct Outcome {
+  int exit_code = -1;
+  std::string said, complained;  // standard output, standard error
+};
+
+class CommandLine : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        fs::path(LUCIOLE_SCRATCH_DIR) / "command_line" / testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "out");
+  }
+
+  // Starts `luciole WORDS...` in the test's folder.
+  pid_t start(std::vector<std::string> words) {
+    words.insert(words.begin(), LUCIOLE_PROGRAM);
+    const pid_t child = fork();
+    if (child != 0) return child;
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    const auto send_to = [](const char* name, int stream) {
+      dup2(open(name, O_WRONLY | O_CREAT | O_TRUNC, 0600), stream);
+    };
+    if (chdir(folder_.c_str()) != 0) _exit(99);
+    send_to("said", STDOUT_FILENO), send_to("complained", STDERR_FILENO);
+    unsetenv("LUCIOLE_SCENES");
+    execv(LUCIOLE_PROGRAM, arguments.data());
+    _exit(99);
+  }
+
+  Outcome finish(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder_ / "said"), content(folder_ / "complained")};
+  }
+
+  Outcome run(std::vector<std::string> words) { return finish(start(std::move(words))); }
+
+  // Small enough to be quick, large enough for tiles and interleaving.
+  static std::vector<std::string> small_render(std::vector<std::string> more) {
+    std::vector<std::string> words = {"render", "recipe:cornell", "--size", "64x36", "--vpls", "256"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+  std::size_t files_in_out() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_ / "out"), {}));
+  }
+
+  fs::path folder_;
+};
+
+// What every refusal must look like: the exit code, one line that begins with the program's name, nothing written.
+#define EXPECT_REFUSED(code, ...)                                                                               \
+  do {                                                                                                          \
+    const Outcome refused = run(__VA_ARGS__);                                                                   \
+    EXPECT_EQ(refused.exit_code, code) << refused.complained;                                                   \
+    EXPECT_EQ(refused.complained.rfind("luciole: ", 0), 0u) << refused.complained;                              \
+    EXPECT_EQ(std::count(refused.complained.begin(), refused.complained.end(), '\n'), 1) << refused.complained; \
+    EXPECT_EQ(refused.said, "");                                                                                \
+    EXPECT_EQ(files_in_out(), 0u);                                                                              \
+  } while (false)
+
+TEST_F(CommandLine, renders_pictures_and_statistics) {
+  const Outcome outcome = run(small_render({"-o", "out/a.exr", "-o", "out/a.png", "--statistics", "out/a.json"}));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.complained;
+  EXPECT_EQ(outcome.said, "");
+  EXPECT_EQ(outcome.complained, "");  // quiet in a pipe
+  EXPECT_EQ(files_in_out(), 3u);
+  const Result<Image> picture = read_exr(folder_ / "out/a.exr");
+  ASSERT_TRUE(picture.has_value()) << picture.error().message;
+  EXPECT_EQ(picture->width, 64u);
+  EXPECT_EQ(picture->height, 36u);
+  EXPECT_EQ(picture->metadata.at("luciole.vpls"), "256");
+  EXPECT_EQ(content(folder_ / "out/a.png").substr(1, 3), "PNG");
+  const auto statistics = nlohmann::json::parse(content(folder_ / "out/a.json"));
+  for (const char* key :
+       {"passes_ms", "frame_ms", "lights", "lights_listed_per_pixel", "lights_accepted_per_pixel",
+        "false_positives_per_pixel", "list_length", "light_pixel_evaluations_per_second", "peak_memory_bytes",
+        "settings", "seed", "load_ms", "bvh_ms", "processor", "instruction_set", "threads", "version"}) {
+    EXPECT_TRUE(statistics.contains(key)) << key;
+  }
+  for (const char* key : {"total", "diffuse", "glossy"}) {
+    EXPECT_TRUE(statistics["lights_listed_per_pixel"].contains(key)) << key;
+  }
+  EXPECT_GT(statistics["lights_accepted_per_pixel"]["total"].get<double>(), 0);
+}
+
+TEST_F(CommandLine, equal_runs_write_equal_files_and_other_seeds_do_not) {
+  ASSERT_EQ(run(small_render({"-o", "out/a.exr", "--threads", "1"})).exit_code, 0);
+  ASSERT_EQ(run(small_render({"-o", "out/b.exr", "--threads", "2"})).exit_code, 0);
+  ASSERT_EQ(run(small_render({"-o", "out/c.exr", "--seed", "2"})).exit_code, 0);
+  EXPECT_EQ(content(folder_ / "out/a.exr"), content(folder_ / "out/b.exr"));
+  const Outcome same = run({"compare", "out/a.exr", "out/b.exr", "--json"});
+  const Outcome other = run({"compare", "out/a.exr", "out/c.exr", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(same.said)["rmse"].get<double>(), 0);
+  EXPECT_EQ(nlohmann::json::parse(same.said)["mean_ratio"].get<double>(), 1);
+  EXPECT_GT(nlohmann::json::parse(other.said)["relmse"].get<double>(), 0);
+}
+
+TEST_F(CommandLine, accumulating_gives_the_mean_of_the_frames_and_their_variance) {
+  ASSERT_EQ(run(small_render({"-o", "out/f-####.exr", "--frames", "0-2"})).exit_code, 0);
+  ASSERT_EQ(run(small_render({"-o", "out/mean.exr", "--accumulate", "3", "--layers", "variance", "--statistics",
+                              "out/mean.json"}))
+                .exit_code,
+            0);
+  const Result<Image> mean = read_exr(folder_ / "out/mean.exr");
+  ASSERT_TRUE(mean.has_value());
+  std::vector<Image> frames;
+  for (const char* name : {"out/f-0000.exr", "out/f-0001.exr", "out/f-0002.exr"}) {
+    frames.push_back(*read_exr(folder_ / name));
+  }
+  bool frames_differ = false;
+  for (std::size_t i = 0; i < mean->pixel_count(); ++i) {
+    const double a = frames[0].channels["G"][i], b = frames[1].channels["G"][i], c = frames[2].channels["G"][i];
+    const double expected = (a + b + c) / 3;
+    const auto sq = [expected](double x) { return (x - expected) * (x - expected); };
+    EXPECT_FLOAT_EQ(mean->channels.at("G")[i], static_cast<float>(expected));
+    EXPECT_NEAR(mean->channels.at("variance.G")[i], (sq(a) + sq(b) + sq(c)) / 2, 1e-6 * (1 + a * a));
+    frames_differ |= a != b;
+  }
+  EXPECT_TRUE(frames_differ);  // else the mean proves nothing
+  EXPECT_EQ(nlohmann::json::parse(content(folder_ / "out/mean.json"))["frames"].size(), 3u);
+}
+
+TEST_F(CommandLine, misuse_is_refused_with_one_sentence_and_exit_code_2) {
+  EXPECT_REFUSED(2, {});
+  EXPECT_REFUSED(2, {"dance"});
+  EXPECT_REFUSED(2, {"render"});
+  EXPECT_REFUSED(2, {"render", "recipe:cornell"});
+  EXPECT_REFUSED(2, small_render({"-o", "out/a.exr", "--brightness", "3"}));
+  EXPECT_REFUSED(2, small_render({"-o", "out/a.gif"}));
+  EXPECT_REFUSED(2, small_render({"-o", "out/a.png", "--layers", "direct"}));
+  EXPECT_REFUSED(2, small_render({"-o", "out/a.exr", "--layers", "smell"}));
+  EXPECT_REFUSED(2, small_render({"-o", "out/a.exr", "--layers", "variance"}));
+  EXPECT_REFUSED(2, small_render({"-o", "out/a.exr", "--delta", "0.1", "--error-bound", "0.1"}));
+  EXPECT_REFUSED(2, small_render({"-o", "out/a.exr", "--bounds", "cube"}));
+  EXPECT_REFUSED(2, small_render({"-o", "out/a.exr", "--interleave", "3"}));
+  EXPECT_REFUSED(2, small_render({"-o", "out/a.exr", "--frames", "1-3"}));
+  EXPECT_REFUSED(2, small_render({"-o", "out/a-####.exr", "--frames", "3-1"}));
+  EXPECT_REFUSED(2, small_render({"-o", "out/a.exr", "--camera", "left"}));
+  EXPECT_REFUSED(2, small_render({"-o", "out/a.exr", "--camera", "0,0,0/0,0,0/60"}));
+  EXPECT_REFUSED(2, small_render({"-o", "out/a.exr", "--accumulate", "0"}));
+  EXPECT_REFUSED(2, {"render", "recipe:cornell?colour=3", "-o", "out/a.exr"});
+  EXPECT_REFUSED(2, {"render", "recipe:castle", "-o", "out/a.exr"});
+  EXPECT_REFUSED(2, {"make", "ring", "alpha", "-o", "out/a.glb"});
+  EXPECT_REFUSED(2, {"make", "ring", "-o", "out/a.obj"});
+}
+
+TEST_F(CommandLine, zero_and_huge_sizes_are_refused_before_anything_is_loaded) {
+  for (const char* size : {"0x36", "64x0", "64", "x", "-1x4", "16385x4", "4x99999999999", "16384x16384"}) {
+    EXPECT_REFUSED(2, {"render", "recipe:cornell", "-o", "out/a.exr", "--vpls", "4294967295", "--size", size});
+  }
+  EXPECT_REFUSED(2, {"render", "recipe:cornell", "-o", "out/a.exr", "--vpls", "0"});
+}
+
+TEST_F(CommandLine, missing_files_and_unwritable_outputs_end_with_exit_code_1) {
+  EXPECT_REFUSED(1, {"render", "nowhere.gltf", "-o", "out/a.exr"});
+  EXPECT_REFUSED(1, {"render", "no-such-shot", "-o", "out/a.exr"});
+  EXPECT_REFUSED(1, {"info", "nowhere.glb"});
+  EXPECT_REFUSED(1, {"compare", "nowhere.exr", "nowhere.exr"});
+  EXPECT_REFUSED(1, small_render({"-o", "nowhere/a.exr"}));
+  EXPECT_REFUSED(1, small_render({"-o", "out/a.exr", "--statistics", "nowhere/a.json"}));
+  EXPECT_REFUSED(1, small_render({"-o", "out/a.exr", "--environment", "nowhere.exr"}));
+  fs::create_directories(folder_ / "folder.exr");
+  EXPECT_REFUSED(1, small_render({"-o", "folder.exr"}));
+}
+
+TEST_F(CommandLine, bad_scenes_end_with_exit_code_3) {
+  std::ofstream(folder_ / "empty.gltf") << R"({"asset":{"version":"2.0"}})";
+  EXPECT_REFUSED(3, {"render", "empty.gltf", "-o", "out/a.exr"});
+  std::ofstream(folder_ / "broken.gltf") << "{";
+  EXPECT_REFUSED(3, {"render", "broken.gltf", "-o", "out/a.exr"});
+  std::ofstream(folder_ / "broken.toml") << "scene = 'recipe:ring'\nlens = 3\n";
+  EXPECT_REFUSED(3, {"render", "broken.toml", "-o", "out/a.exr"});
+  std::ofstream(folder_ / "settings.toml") << "scene = 'recipe:ring'\n[settings]\nvplz = 3\n";
+  EXPECT_REFUSED(3, {"render", "settings.toml", "-o", "out/a.exr"});
+  // The control: the same file without the fault is rendered.
+  std::ofstream(folder_ / "right.toml") << "scene = 'recipe:cornell'\n[settings]\nvpls = 64\nsize = [16, 9]\n";
+  EXPECT_EQ(run({"render", "right.toml", "-o", "out/a.exr"}).exit_code, 0);
+  EXPECT_EQ(files_in_out(), 1u);
+}
+
+TEST_F(CommandLine, a_recipe_comes_back_from_its_file) {
+  ASSERT_EQ(run({"make", "ring", "alpha=0.1", "-o", "out/ring.glb"}).exit_code, 0);
+  const Outcome recipe = run({"info", "recipe:ring?alpha=0.1"}), file = run({"info", "out/ring.glb"});
+  ASSERT_EQ(file.exit_code, 0) << file.complained;
+  const auto triangles = [](const std::string& text) { return text.substr(text.find("triangles"), 40); };
+  EXPECT_EQ(triangles(recipe.said), triangles(file.said));
+}
+
+TEST_F(CommandLine, interrupted_accumulation_writes_what_is_complete) {
+  const pid_t child = start(small_render({"-o", "out/a.exr", "--accumulate", "1000000"}));
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  kill(child, SIGINT);
+  const Outcome outcome = finish(child);
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.complained;
+  const Result<Image> picture = read_exr(folder_ / "out/a.exr");
+  ASSERT_TRUE(picture.has_value()) << outcome.complained;
+  EXPECT_GE(std::stoul(picture->metadata.at("luciole.accumulated_frames")), 1u);
+  EXPECT_LT(std::stoul(picture->metadata.at("luciole.accumulated_frames")), 1000000u);
+}
+
+TEST_F(CommandLine, interrupted_in_its_only_frame_writes_nothing) {
+  const pid_t child = start({"render", "recipe:cornell", "--size", "4096x4096", "--vpls", "1000000", "--culling",
+                             "none", "--ranges", "infinite", "--interleave", "1", "-o", "out/a.exr"});
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  kill(child, SIGINT);
+  const Outcome outcome = finish(child);
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.complained;
+  EXPECT_EQ(std::count(outcome.complained.begin(), outcome.complained.end(), '\n'), 1) << outcome.complained;
+  EXPECT_EQ(files_in_out(), 0u);
+}
+
+TEST_F(CommandLine, every_command_explains_itself_with_examples) {
+  for (const char* command : {"render", "info", "make", "compare"}) {
+    const Outcome outcome = run({command, "--help"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.said.find("Examples:\n  luciole " + std::string(command)), std::string::npos) << outcome.said;
+  }
+  EXPECT_EQ(run({"--version"}).said.rfind("luciole ", 0), 0u);
+}
+
+}  // namespace
+}  // namespace luciole
