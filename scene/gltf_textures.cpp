@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/gltf_textures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -41,6 +42,18 @@ void apply_transform(const JsonObject& transform, TextureSlot& slot) {
   slot.c = -sine * scale[0];
   slot.d = cosine * scale[1];
   slot.offset = {offset[0], offset[1]};
+}
+
+// A texture may leave its source to an extension, if the file says that it uses that.
+void check_extensions_declared(const Document& document, const JsonObject& texture) {
+  const std::optional<JsonObject> extensions = texture.object("extensions");
+  if (!extensions) return;
+  const Json* used = document.root().array("extensionsUsed");
+  for (const auto& [name, value] : extensions->json().items()) {
+    if (used == nullptr || std::find(used->begin(), used->end(), name) == used->end()) {
+      fail("UNDECLARED_EXTENSION", texture.label(), "its extension " + printable(name) + " is not in extensionsUsed");
+    }
+  }
 }
 
 }  // namespace
@@ -86,6 +99,7 @@ std::int32_t TextureReader::texture(std::size_t index, bool srgb) {
   const std::optional<std::size_t> image = object.reference("source", document_.count(kImages));
   const std::optional<std::size_t> sampler = object.reference("sampler", document_.count(kSamplers));
   if (!image) {
+    check_extensions_declared(document_, object);
     document_.warn(object.label(), "The " + object.label() + " is ignored: it has no PNG or JPEG source.");
     return -1;
   }

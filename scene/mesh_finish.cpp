@@ -108,8 +108,11 @@ void transform_mesh(Mesh& mesh, const Affine& world_from_mesh, const std::string
   for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
     Vec4& tangent = mesh.tangents[i];
     const Vec3 along = world_from_mesh.vector({tangent.x, tangent.y, tangent.z});
-    Vec3 unit = unit_or_zero(along - mesh.normals[i] * dot(along, mesh.normals[i]));
-    if (is_zero(unit)) unit = unit_or_zero(cross(mesh.normals[i], Vec3(0.36f, 0.48f, 0.8f)));  // no direction is right
+    // Flat meshes have no normals; their tangents lie in the triangles already.
+    const Vec3 normal = mesh.normals.empty() ? Vec3(0, 0, 0) : mesh.normals[i];
+    Vec3 unit = unit_or_zero(along - normal * dot(along, normal));
+    if (is_zero(unit)) unit = unit_or_zero(cross(normal, Vec3(0.36f, 0.48f, 0.8f)));  // no direction is right
+    if (is_zero(unit)) unit = {1, 0, 0};
     tangent = {unit.x, unit.y, unit.z, tangent.w < 0 ? -side : side};
   }
 }

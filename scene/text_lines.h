@@ -72,11 +72,18 @@ class Lines {
       }
       line = joined_.append(line);
     }
-    return line.substr(0, line.find('#'));
+    return without_comment(line);
   }
   std::size_t number() const { return number_; }  // of the line that next() gave, from 1
 
  private:
+  // A comment begins a line or follows a space: names and broken numbers ("1.#IND") may hold the sign themselves.
+  static std::string_view without_comment(std::string_view line) {
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      if (line[i] == '#' && (i == 0 || line[i - 1] == ' ' || line[i - 1] == '\t')) return line.substr(0, i);
+    }
+    return line;
+  }
   std::string_view physical_line() {
     const std::size_t length = std::min(rest_.find('\n'), rest_.size());
     std::string_view line = rest_.substr(0, length);
