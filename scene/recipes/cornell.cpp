@@ -46,7 +46,7 @@ Scene make_cornell(const Values& values) {
              rectangle({-0.23f, kSide - 0.004f, -0.19f}, {0.46f, 0, 0}, {0, 0, 0.38f}));
   }
   const Vec3 under_ceiling{0, kSide - 0.02f, 0};
-  scene.lights.push_back(spot_light("ceiling spot", {under_ceiling, {0, 0, 0}}, {4, 3.6f, 3}, 30, 85));
+  scene.lights.push_back(spot_light("ceiling spot", {under_ceiling, {0, 0, 0}}, {4, 3.6f, 3}, 60, 88));
   scene.cameras.push_back(named_camera("front", {{0, 1, 3.9f}, {0, 1, 0}}, 39));
   return scene;
 }

@@ -51,7 +51,7 @@ Scene make_lights(const Values& values) {
 Recipe lights_recipe() {
   return {{"lights",
            "a hall of columns with many punctual lights (points and spots)",
-           {{"count", "number of lights", 1000, 1, 4194304, true},
+           {{"count", "number of lights", 1000, 1, 1048576, true},
             {"seed", "another seed, another arrangement", 1, 0, 4294967295.0, true}}},
           make_lights};
 }

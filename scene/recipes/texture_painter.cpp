@@ -22,7 +22,8 @@ std::uint8_t encode(float x, Encoding encoding) {
 float fade(float t) { return t * t * t * (t * (6 * t - 15) + 10); }
 
 float lattice(std::uint32_t x, std::uint32_t y, std::uint32_t period, std::uint32_t seed) {
-  return 2 * unit_hash(seed, (y % period) * period + x % period, 7) - 1;
+  const std::uint32_t bits = mix_bits(seed * 0x9e3779b9u + (y % period) * period + x % period);
+  return static_cast<float>(bits >> 8) * 0x1p-23f - 1;
 }
 
 }  // namespace

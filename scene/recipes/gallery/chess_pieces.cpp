@@ -30,7 +30,7 @@ std::vector<Knot> foot(float base, float neck, float collar) {
 
 Mesh turned(std::vector<Knot> knots, const std::vector<Knot>& head, Detail detail) {
   knots.insert(knots.end(), head.begin(), head.end());
-  return lathe(open_line(knots, detail.segments(190, 40)), detail.segments(128, 16));
+  return lathe(open_line(knots, detail.segments(150, 40)), detail.segments(112, 16));
 }
 
 }  // namespace
@@ -40,13 +40,13 @@ Mesh chess_king(Detail detail) {
                      {{0.085f, 0.78f}, {0.125f, 0.92f, 0.006f}, {0.12f, 0.94f, 0.006f}, {0.07f, 0.965f}, {0.02f, 0.985f},
                       {0, 0.99f, kCrisp}},
                      detail);
-  const std::vector<Vec2> cross = closed_line({{-0.018f, 0, 0.003f}, {0.018f, 0, 0.003f}, {0.014f, 0.045f, 0.003f},
-                                               {0.055f, 0.040f, 0.004f}, {0.055f, 0.080f, 0.004f},
-                                               {0.014f, 0.075f, 0.003f}, {0.022f, 0.125f, 0.004f},
-                                               {-0.022f, 0.125f, 0.004f}, {-0.014f, 0.075f, 0.003f},
-                                               {-0.055f, 0.080f, 0.004f}, {-0.055f, 0.040f, 0.004f},
-                                               {-0.014f, 0.045f, 0.003f}}, 24);
-  append(mesh, extrude({cross, {}, 0.034f, 0.006f}), translate({0, 0.975f, 0}));
+  constexpr float kRound = 0.007f;
+  const std::vector<Vec2> cross = closed_line(
+      {{-0.018f, 0, kRound}, {0.018f, 0, kRound}, {0.014f, 0.045f, kRound}, {0.055f, 0.040f, kRound},
+       {0.055f, 0.080f, kRound}, {0.014f, 0.075f, kRound}, {0.022f, 0.125f, kRound}, {-0.022f, 0.125f, kRound},
+       {-0.014f, 0.075f, kRound}, {-0.055f, 0.080f, kRound}, {-0.055f, 0.040f, kRound}, {-0.014f, 0.045f, kRound}},
+      24);
+  append(mesh, extrude({cross, {}, 0.034f, 0.004f}), translate({0, 0.975f, 0}));
   return mesh;
 }
 
@@ -60,8 +60,8 @@ Mesh chess_queen(Detail detail) {
         knots.insert(knots.end(), head.begin(), head.end());
         return knots;
       }(),
-      detail.segments(190, 40));
-  const std::uint32_t columns = detail.segments(160, 24);
+      detail.segments(150, 40));
+  const std::uint32_t columns = detail.segments(144, 24);
   std::vector<Vec3> points = lathe(profile, columns).positions;
   for (Vec3& p : points) {  // ten points round the coronet
     const float rim = std::max(0.0f, 1 - std::abs(p.y - 0.853f) / 0.05f) * (p.x * p.x + p.z * p.z > 0.0064f ? 1 : 0);

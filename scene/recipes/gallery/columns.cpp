@@ -28,8 +28,8 @@ Mesh column(Detail detail) {
                                 {0.39f, top - 0.22f, kCrisp},
                                 {0.42f, top - 0.19f},
                                 {0.40f, top - 0.16f, kCrisp}},
-                               detail.segments(80, 24)),
-                     detail.segments(96, 20));
+                               detail.segments(64, 24)),
+                     detail.segments(72, 16));
   append(whole, rounded_box({0.96f, 0.30f, 0.96f}, 0.012f), translate({0, 0.15f, 0}));
   append(whole, rounded_box({0.90f, 0.13f, 0.90f}, 0.012f), translate({0, top - 0.10f, 0}));
   append(whole, rounded_box({0.98f, 0.06f, 0.98f}, 0.012f), translate({0, top - 0.01f, 0}));

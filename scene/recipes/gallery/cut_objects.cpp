@@ -12,17 +12,50 @@ namespace {
 
 Vec2 polar(float radius, float angle) { return {radius * std::cos(angle), radius * std::sin(angle)}; }
 
-// An ellipse's arc as points.
-std::vector<Vec2> arc(Vec2 centre, Vec2 half_axes, float from_degrees, float to_degrees, std::uint32_t samples) {
-  std::vector<Vec2> line;
-  for (std::uint32_t i = 0; i <= samples; ++i) {
-    const float angle = radians(std::lerp(from_degrees, to_degrees, static_cast<float>(i) / static_cast<float>(samples)));
-    line.push_back({centre.x + half_axes.x * std::cos(angle), centre.y + half_axes.y * std::sin(angle)});
+// Smooth knots along an ellipse's arc, both ends included, one every 15 degrees or so.
+void add_arc(std::vector<Knot>& knots, Vec2 centre, Vec2 half_axes, float from_degrees, float to_degrees) {
+  const auto steps = static_cast<int>(std::ceil(std::abs(to_degrees - from_degrees) / 15));
+  for (int i = 0; i <= steps; ++i) {
+    const float angle = radians(std::lerp(from_degrees, to_degrees, static_cast<float>(i) / static_cast<float>(steps)));
+    knots.push_back({centre.x + half_axes.x * std::cos(angle), centre.y + half_axes.y * std::sin(angle)});
   }
+}
+
+std::vector<Vec2> ellipse(Vec2 half_axes, std::uint32_t samples) {
+  std::vector<Vec2> line = circle(1, samples);
+  for (Vec2& p : line) p = Vec2{0.5f, 0.5f} + p * half_axes;
   return line;
 }
 
-std::vector<Vec2> straight(const std::vector<Knot>& corners) { return closed_line(corners, 8); }
+// Corners are rounder than the bevel is wide, so that the bevelled outline does not cross itself.
+constexpr float kStem = 0.19f, kRound = 0.035f, kBevel = 0.022f;
+
+std::vector<Vec2> polygon(const std::vector<Vec2>& corners) {
+  std::vector<Knot> knots;
+  for (const Vec2 p : corners) knots.push_back({p.x, p.y, kRound});
+  return closed_line(knots, 8);
+}
+
+std::vector<Vec2> letter_u(std::uint32_t samples) {
+  std::vector<Knot> knots = {{kStem, 1, kRound}, {0, 1, kRound}, {0, 0.45f}};
+  add_arc(knots, {0.36f, 0.36f}, {0.36f, 0.375f}, 180, 360);
+  const std::vector<Knot> right = {{0.72f, 0.45f}, {0.72f, 1, kRound}, {0.53f, 1, kRound}, {0.53f, 0.45f}};
+  knots.insert(knots.end(), right.begin(), right.end());
+  add_arc(knots, {0.36f, 0.36f}, {0.17f, 0.185f}, 360, 180);
+  knots.push_back({kStem, 0.45f});
+  return closed_line(knots, 4 * samples);
+}
+
+std::vector<Vec2> letter_c(std::uint32_t samples) {
+  std::vector<Knot> knots;
+  for (const bool outer : {true, false}) {
+    const std::size_t first = knots.size();
+    const Vec2 half_axes = outer ? Vec2{0.47f, 0.515f} : Vec2{0.28f, 0.325f};
+    add_arc(knots, {0.47f, 0.5f}, half_axes, outer ? 48 : 312, outer ? 312 : 48);
+    knots[first].rounding = knots.back().rounding = kRound;
+  }
+  return closed_line(knots, 4 * samples);
+}
 
 struct Letter {
   std::vector<Vec2> outline, hole;
@@ -31,32 +64,21 @@ struct Letter {
 
 // Capitals of unit height in a plain bold hand.
 Letter letter(char name, std::uint32_t samples) {
-  constexpr float kRound = 0.012f, kStem = 0.19f;
   switch (name) {
     case 'L':
-      return {straight({{0, 0, kRound}, {0.58f, 0, kRound}, {0.58f, kStem, kRound}, {kStem, kStem, kRound},
-                        {kStem, 1, kRound}, {0, 1, kRound}}), {}, 0.68f};
+      return {polygon({{0, 0}, {0.58f, 0}, {0.58f, kStem}, {kStem, kStem}, {kStem, 1}, {0, 1}}), {}, 0.68f};
     case 'E':
-      return {straight({{0, 0, kRound}, {0.60f, 0, kRound}, {0.60f, 0.18f, kRound}, {kStem, 0.18f, kRound},
-                        {kStem, 0.41f, kRound}, {0.52f, 0.41f, kRound}, {0.52f, 0.59f, kRound}, {kStem, 0.59f, kRound},
-                        {kStem, 0.82f, kRound}, {0.60f, 0.82f, kRound}, {0.60f, 1, kRound}, {0, 1, kRound}}), {}, 0.72f};
-    case 'U': {
-      std::vector<Vec2> line = arc({0.36f, 0.36f}, {0.36f, 0.37f}, 180, 360, samples);
-      for (const Vec2 p : {Vec2{0.72f, 1}, Vec2{0.53f, 1}}) line.push_back(p);
-      for (const Vec2 p : arc({0.36f, 0.36f}, {0.17f, 0.18f}, 360, 180, samples)) line.push_back(p);
-      for (const Vec2 p : {Vec2{kStem, 1}, Vec2{0, 1}}) line.push_back(p);
-      return {line, {}, 0.85f};
-    }
-    case 'C': {
-      std::vector<Vec2> line = arc({0.47f, 0.5f}, {0.47f, 0.515f}, 48, 312, 2 * samples);
-      for (const Vec2 p : arc({0.47f, 0.5f}, {0.28f, 0.325f}, 312, 48, 2 * samples)) line.push_back(p);
-      return {line, {}, 0.92f};
-    }
+      return {polygon({{0, 0}, {0.60f, 0}, {0.60f, 0.18f}, {kStem, 0.18f}, {kStem, 0.41f}, {0.52f, 0.41f},
+                       {0.52f, 0.59f}, {kStem, 0.59f}, {kStem, 0.82f}, {0.60f, 0.82f}, {0.60f, 1}, {0, 1}}),
+              {}, 0.72f};
+    case 'U':
+      return {letter_u(samples), {}, 0.85f};
+    case 'C':
+      return {letter_c(samples), {}, 0.92f};
     case 'O':
-      return {arc({0.5f, 0.5f}, {0.5f, 0.515f}, 0, 360 - 180 / static_cast<float>(samples), 2 * samples - 1),
-              arc({0.5f, 0.5f}, {0.31f, 0.325f}, 0, 360 - 180 / static_cast<float>(samples), 2 * samples - 1), 1.12f};
+      return {ellipse({0.5f, 0.515f}, 2 * samples), ellipse({0.31f, 0.325f}, 2 * samples), 1.12f};
     default:
-      return {straight({{0, 0, kRound}, {kStem, 0, kRound}, {kStem, 1, kRound}, {0, 1, kRound}}), {}, 0.32f};
+      return {polygon({{0, 0}, {kStem, 0}, {kStem, 1}, {0, 1}}), {}, 0.32f};
   }
 }
 
@@ -65,7 +87,7 @@ Letter letter(char name, std::uint32_t samples) {
 Mesh gear(std::uint32_t teeth, float radius, float thickness, Detail detail) {
   std::vector<Vec2> rim, bore;
   const float pitch = kTwoPi / static_cast<float>(teeth), deep = 0.75f * pitch * radius;
-  const std::uint32_t flank = detail.segments(6, 2);
+  const std::uint32_t flank = detail.segments(3, 1);
   for (std::uint32_t tooth = 0; tooth < teeth; ++tooth) {
     const float start = pitch * static_cast<float>(tooth);
     for (std::uint32_t i = 0; i < flank; ++i) {  // root, rising flank, tip, falling flank
@@ -82,13 +104,13 @@ Mesh gear(std::uint32_t teeth, float radius, float thickness, Detail detail) {
     }
     for (std::uint32_t i = 0; i < flank; ++i) {
       const float t = static_cast<float>(i) / static_cast<float>(flank);
-      rim.push_back(polar(radius - deep * t, start + pitch * (0.61f + 0.15f * (1 - std::sqrt(1 - t)) + 0.24f * 0)));
+      rim.push_back(polar(radius - deep * t, start + pitch * (0.61f + 0.15f * (1 - std::sqrt(1 - t)))));
     }
   }
   for (std::size_t i = 0; i < rim.size(); ++i) {
     bore.push_back(polar(0.66f * radius, kTwoPi * static_cast<float>(i) / static_cast<float>(rim.size())));
   }
-  Mesh mesh = extrude({rim, bore, thickness, 0.1f * thickness});
+  Mesh mesh = extrude({rim, bore, thickness, 0.04f * thickness});
   const auto ring = circle(0.26f * radius, detail.segments(64));
   append(mesh, extrude({ring, circle(0.12f * radius, detail.segments(64)), 1.35f * thickness, 0.08f * thickness}));
   for (int spoke = 0; spoke < 6; ++spoke) {
@@ -100,7 +122,7 @@ Mesh gear(std::uint32_t teeth, float radius, float thickness, Detail detail) {
 
 Mesh crown(Detail detail) {
   constexpr int kPoints = 8;
-  const std::uint32_t columns = detail.segments(384, 48), rows = detail.segments(36, 6);
+  const std::uint32_t columns = detail.segments(320, 48), rows = detail.segments(28, 6);
   // A band that flares upwards, its upper edge cut into points; there and back again, so that it is closed.
   const auto edge = [](float u) {
     const float wave = std::abs(2 * (u * kPoints - std::floor(u * kPoints)) - 1);
@@ -136,7 +158,7 @@ Mesh letters(const std::string& word, float height, Detail detail) {
   float at = -total / 2;
   for (const char name : word) {
     const Letter shape = letter(name, samples);
-    append(mesh, extrude({shape.outline, shape.hole, 0.26f, 0.022f}), scale({height, height, height}) * translate({at, 0, 0}));
+    append(mesh, extrude({shape.outline, shape.hole, 0.26f, kBevel}), scale({height, height, height}) * translate({at, 0, 0}));
     at += shape.advance;
   }
   return mesh;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/recipes/gallery/exhibits.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene/recipes/gallery/hall.h"
@@ -29,6 +30,14 @@ Affine at(float x, float y, float z, float turn_degrees = 0) {
   return translate({x, y, z}) * rotate_y(radians(turn_degrees));
 }
 
+// Turned, and set down on y = 0.
+Mesh resting(const Mesh& mesh, const Affine& turn) {
+  Mesh turned = placed(mesh, turn);
+  float lowest = turned.positions.front().y;
+  for (const Vec3 p : turned.positions) lowest = std::min(lowest, p.y);
+  return placed(turned, translate({0, -lowest, 0}));
+}
+
 // A pedestal with a moulded foot and cap; square, `width` wide at the die.
 Mesh pedestal(float width, float height) {
   return moulding(rounded_rectangle({width, width}, 0.008f),
@@ -39,87 +48,108 @@ Mesh pedestal(float width, float height) {
                             30));
 }
 
+// The floor under the near window: low things, so that each has its sun.
 void show_foreground(Showcase& s) {
   const Detail d = s.detail();
-  s.show("wedding ring", finger_ring(d), at(0.55f, 0, 4.35f), metal::kGold, 0.06f);
-  s.show("bowl", bowl(d), translate({-0.75f, 0.12f, 4.05f}) * rotate_y(radians(24)) * rotate_z(radians(38)),
-         metal::kSilver, 0.08f);
-  s.show("fallen pawn", chess_pawn(d), translate({1.75f, 0.157f, 4.75f}) * rotate_y(radians(145)) * rotate_z(radians(-90)),
+  s.show("amphora", amphora(d), at(-3.45f, 0.25f, 3.45f, 60), metal::kBrass, 0.14f);
+  s.show("coil spring", coil_spring(d), at(-3.2f, 0, 1.75f), metal::kSteel, 0.22f);
+  s.show("bowl", resting(bowl(d), rotate_y(radians(48)) * rotate_z(radians(52))), at(-2.05f, 0, 2.75f), metal::kSilver, 0.08f);
+  s.show("wedding ring", finger_ring(d), at(-0.65f, 0, 2.95f), metal::kGold, 0.06f);
+  s.show("fallen pawn", resting(chess_pawn(d), rotate_y(radians(150)) * rotate_z(radians(-80))), at(0.30f, 0, 3.75f),
          metal::kBronze, 0.135f);
-  s.show("crown", crown(d), at(2.62f, 1.13f, 3.95f, 10), metal::kGold, 0.095f);
-  s.show("coil spring", coil_spring(d), at(1.35f, 0, 2.35f), metal::kSteel, 0.22f);
 }
+
+constexpr float kTableX = 1.95f, kTableZ = 3.15f, kTableTop = 0.805f;
 
 void show_table(Showcase& s) {
   const Detail d = s.detail();
-  const Affine table = at(-2.35f, 0, 2.95f);
+  const Affine table = at(kTableX, 0, kTableZ);
   s.show("gold cloth", table_cloth(0.66f, 0.80f, d), table, metal::kGold, 0.45f);
-  s.show("kettle", kettle(d), table * at(0.08f, 0.805f, -0.12f, 205), metal::kCopper, 0.11f);
-  s.show("tall goblet", goblet(d), table * at(0.36f, 0.805f, 0.26f), metal::kSilver, 0.07f);
-  s.show("goblet", goblet(d), table * at(-0.05f, 0.805f, 0.40f) * scale({0.86f, 0.86f, 0.86f}), metal::kGold, 0.15f);
-  s.show("candlestick", candlestick(d), table * at(-0.33f, 0.805f, 0.02f), metal::kBrass, 0.17f);
+  s.show("crown", crown(d), table * at(0.30f, kTableTop + 0.105f, -0.14f, 10), metal::kGold, 0.095f);
+  s.show("kettle", kettle(d), table * at(-0.28f, kTableTop, -0.22f, 215), metal::kCopper, 0.11f);
+  s.show("tall goblet", goblet(d), table * at(-0.26f, kTableTop, 0.30f), metal::kSilver, 0.07f);
+  s.show("goblet", goblet(d), table * at(0.10f, kTableTop, 0.42f) * scale({0.86f, 0.86f, 0.86f}), metal::kGold, 0.15f);
 }
 
 void show_chess(Showcase& s) {
   const Detail d = s.detail();
-  s.show("chess king", chess_king(d), at(0.15f, 0, -0.55f, 15), metal::kGold, 0.12f);
-  s.show("chess queen", chess_queen(d), at(-0.72f, 0, -1.05f), metal::kPlatinum, 0.105f);
-  s.show("chess bishop", chess_bishop(d), at(0.78f, 0, -0.15f), metal::kNickel, 0.19f);
-  s.show("chess rook", chess_rook(d), at(-1.5f, 0, -0.75f), metal::kBronze, 0.21f);
-  s.show("chess pawn", chess_pawn(d), at(-0.35f, 0, 0.12f), metal::kAluminium, 0.16f);
+  s.show("chess king", chess_king(d), at(0.05f, 0, -2.05f, 15), metal::kGold, 0.12f);
+  s.show("chess queen", chess_queen(d), at(-0.85f, 0, -2.35f), metal::kPlatinum, 0.105f);
+  s.show("chess bishop", chess_bishop(d), at(-0.45f, 0, -1.40f), metal::kNickel, 0.19f);
+  s.show("chess rook", chess_rook(d), at(-1.75f, 0, -1.95f), metal::kBronze, 0.21f);
+  s.show("chess pawn", chess_pawn(d), at(-1.25f, 0, -1.15f), metal::kAluminium, 0.16f);
 }
 
-void show_right_side(Showcase& s) {
+void show_barrier(Showcase& s) {
   const Detail d = s.detail();
-  s.show("torus knot", torus_knot(d), at(2.6f, 0.93f, -0.35f, 25), metal::kCopper, 0.085f);
-  s.show("mirror dish", mirror_dish(d), translate({4.12f, 0.60f, 0.95f}) * rotate_z(radians(62)) * rotate_x(radians(8)),
-         metal::kSilver, 0.05f);
-  s.show("amphora", amphora(d), at(3.45f, 0.25f, 2.55f, 60), metal::kBrass, 0.14f);
-  const Vec3 posts[] = {{1.75f, 0, -0.95f}, {1.72f, 0, 0.55f}, {2.55f, 0, 1.75f}, {3.9f, 0, 1.85f}};
-  Mesh stanchions, chains;
+  const Vec3 posts[] = {{1.80f, 0, -2.75f}, {1.75f, 0, -1.30f}, {2.40f, 0, 0.05f}, {3.90f, 0, 0.20f}};
   const Mesh post = lathe(open_line({{0, 0, kCrisp}, {0.16f, 0, 0.006f}, {0.165f, 0.02f, 0.006f}, {0.06f, 0.06f},
                                      {0.024f, 0.10f, 0.004f}, {0.022f, 0.86f, 0.004f}, {0.036f, 0.87f, 0.004f},
                                      {0.036f, 0.90f, 0.004f}, {0.02f, 0.91f, 0.004f}, {0.045f, 0.955f}, {0, 1.0f, kCrisp}},
                                     d.segments(64)),
-                          d.segments(64));
+                          d.segments(48));
+  Mesh stanchions, chains;
   for (const Vec3 p : posts) append(stanchions, post, translate(p));
-  for (int k = 0; k < 3; ++k) append(chains, chain(posts[k] + Vec3{0, 0.885f, 0}, posts[k + 1] + Vec3{0, 0.885f, 0}, 0.26f, d));
+  const Vec3 hook{0, 0.885f, 0};
+  for (int k = 0; k < 3; ++k) append(chains, chain(posts[k] + hook, posts[k + 1] + hook, 0.26f, d));
   s.show("stanchions", std::move(stanchions), {}, metal::kBrass, 0.26f);
   s.show("chain", std::move(chains), {}, metal::kNickel, 0.24f);
 }
 
-void show_left_side_and_end(Showcase& s) {
+void show_middle(Showcase& s) {
   const Detail d = s.detail();
-  s.show("armillary sphere", armillary_sphere(d), at(-3.2f, 0.55f, -1.75f, 20), metal::kBrass, 0.125f);
-  s.show("large gear", gear(28, 0.52f, 0.10f, d), translate({-1.35f, 0.40f, 1.05f}) * rotate_y(radians(28)), metal::kSteel, 0.28f);
-  s.show("small gear", gear(14, 0.27f, 0.10f, d), translate({-0.72f, 0.40f, 0.72f}) * rotate_y(radians(28)), metal::kBronze, 0.32f);
-  s.show("trumpet", trumpet(d), translate({0.75f, 0.70f, 1.05f}) * rotate_y(radians(200)) * rotate_x(radians(12)), metal::kGold, 0.075f);
-  s.show("Klein bottle", klein_bottle(d), at(-2.9f, 0.9f, -6.1f, -20), metal::kTitanium, 0.18f);
-  s.show("bell", bell(d), at(1.9f, 0.40f, -4.75f), metal::kBronze, 0.30f);
-  s.show("spiral staircase", spiral_staircase(3.3f, d), at(3.05f, 0, -7.9f, -60), metal::kSteel, 0.38f);
+  show_chess(s);
+  show_barrier(s);
+  s.show("Klein bottle", klein_bottle(d), at(-3.05f, 0.9f, -2.75f, -20), metal::kTitanium, 0.18f);
+  s.show("large gear", gear(28, 0.52f, 0.10f, d), translate({-3.45f, 0.40f, 0.35f}) * rotate_y(radians(48)),
+         metal::kSteel, 0.28f);
+  s.show("small gear", gear(14, 0.27f, 0.10f, d), translate({-2.97f, 0.40f, -0.18f}) * rotate_y(radians(48)),
+         metal::kBronze, 0.32f);
+  s.show("trumpet", trumpet(d), translate({0.75f, 0.735f, -0.85f}) * rotate_y(radians(200)) * rotate_x(radians(12)),
+         metal::kGold, 0.075f);
+  s.show("torus knot", torus_knot(d), at(2.75f, 0.93f, -2.05f, 25), metal::kCopper, 0.085f);
+  s.show("mirror dish", resting(mirror_dish(d), rotate_y(radians(22)) * rotate_z(radians(66))), at(3.98f, 0, -0.80f),
+         metal::kSilver, 0.05f);
+}
+
+void show_far_end(Showcase& s) {
+  const Detail d = s.detail();
+  s.show("armillary sphere", armillary_sphere(d), at(-2.75f, 0.55f, -6.7f, 20), metal::kBrass, 0.125f);
+  s.show("candlestick", candlestick(d), at(-1.95f, 0, -5.9f) * scale({1.7f, 1.7f, 1.7f}), metal::kBrass, 0.17f);
+  s.show("bell", bell(d), at(1.7f, 0.40f, -6.3f), metal::kBronze, 0.30f);
+  s.show("spiral staircase", spiral_staircase(3.3f, d), at(3.05f, 0, -8.1f, -60), metal::kSteel, 0.38f);
   s.show("letters", letters("LUCIOLE", 0.72f, d), at(-0.6f, 3.72f, 0.12f - kHalfLength), metal::kGold, 0.20f);
+}
+
+Mesh round_table(Detail detail) {
+  return lathe(open_line({{0.32f, 0, kCrisp}, {0.30f, 0.05f}, {0.06f, 0.12f}, {0.08f, 0.4f}, {0.06f, 0.7f, kCrisp},
+                          {0.64f, 0.74f, kCrisp}, {0.64f, 0.79f, 0.02f}, {0, 0.795f, kCrisp}},
+                         detail.segments(30)),
+               detail.segments(48));
+}
+
+// A squarish pillow: a superellipse in plan, pinched towards its rim.
+Mesh pillow(Detail detail) {
+  return grid_surface({detail.segments(96, 16), detail.segments(48, 8), true, false, {1, 1}}, [](float u, float v) {
+    const float angle = kTwoPi * u, c = std::cos(angle), s = std::sin(angle);
+    const float ring = v == 0 || v == 1 ? 0 : std::sin(kPi * v);
+    const float r = 0.25f * std::pow(ring, 0.55f) / std::pow(std::pow(std::abs(c), 4.0f) + std::pow(std::abs(s), 4.0f), 0.25f);
+    return Vec3{r * c, 0.06f - 0.062f * std::cos(kPi * v), -r * s};
+  });
 }
 
 void add_furniture(Scene& scene, const HallMaterials& materials, Detail detail) {
   Mesh stone, wood, cushion;
-  append(stone, pedestal(0.46f, 1.02f), at(2.62f, 0, 3.95f, 10));
-  append(stone, pedestal(0.56f, 0.93f), at(2.6f, 0, -0.35f, 25));
-  append(stone, pedestal(0.60f, 0.55f), at(-3.2f, 0, -1.75f, 20));
-  append(stone, pedestal(0.52f, 0.90f), at(-2.9f, 0, -6.1f, -20));
-  append(stone, pedestal(0.62f, 0.25f), at(3.45f, 0, 2.55f));
-  append(wood, pedestal(0.80f, 0.40f), at(-1.1f, 0, 0.92f, 28));
-  append(wood, pedestal(0.62f, 0.52f), at(0.72f, 0, 1.05f, 20));
-  append(wood, pedestal(0.95f, 0.40f), at(1.9f, 0, -4.75f));
-  append(wood, lathe(open_line({{0.32f, 0, kCrisp}, {0.30f, 0.05f}, {0.06f, 0.12f}, {0.08f, 0.4f}, {0.06f, 0.7f, kCrisp},
-                                {0.64f, 0.74f, kCrisp}, {0.64f, 0.79f, 0.02f}, {0, 0.795f, kCrisp}}, 30), 48),
-         at(-2.35f, 0, 2.95f));
-  append(cushion, grid_surface({detail.segments(96, 16), detail.segments(48, 8), true, false, {1, 1}}, [](float u, float v) {
-           // A squarish pillow: a superellipse in plan, pinched towards its rim.
-           const float a = kTwoPi * u, c = std::cos(a), s = std::sin(a), ring = v == 0 || v == 1 ? 0 : std::sin(kPi * v);
-           const float r = 0.25f * std::pow(ring, 0.55f) / std::pow(std::pow(std::abs(c), 4.0f) + std::pow(std::abs(s), 4.0f), 0.25f);
-           return Vec3{r * c, 0.06f - 0.062f * std::cos(kPi * v), -r * s};
-         }), at(2.62f, 1.02f, 3.95f, 10));
-  append(cushion, rounded_box({0.5f, 0.18f, 0.3f}, 0.06f), at(0.72f, 0.60f, 1.05f, 20));
+  append(stone, pedestal(0.62f, 0.25f), at(-3.45f, 0, 3.45f));
+  append(stone, pedestal(0.52f, 0.90f), at(-3.05f, 0, -2.75f, -20));
+  append(stone, pedestal(0.56f, 0.93f), at(2.75f, 0, -2.05f, 25));
+  append(stone, pedestal(0.60f, 0.55f), at(-2.75f, 0, -6.7f, 20));
+  append(wood, pedestal(1.00f, 0.40f), at(-3.25f, 0, 0.12f, 48));
+  append(wood, pedestal(0.62f, 0.52f), at(0.72f, 0, -0.85f, 20));
+  append(wood, pedestal(0.95f, 0.40f), at(1.7f, 0, -6.3f));
+  append(wood, round_table(detail), at(kTableX, 0, kTableZ));
+  append(cushion, pillow(detail), at(kTableX + 0.30f, kTableTop, kTableZ - 0.14f, 10));
+  append(cushion, rounded_box({0.5f, 0.18f, 0.3f}, 0.06f), at(0.72f, 0.60f, -0.85f, 20));
   scale_uv(stone, kStoneTile);
   scale_uv(wood, kOakTile);
   add_tangents(stone);
@@ -136,9 +166,8 @@ void add_exhibits(Scene& scene, const HallMaterials& materials, Detail detail) {
   Showcase showcase(scene, detail);
   show_foreground(showcase);
   show_table(showcase);
-  show_chess(showcase);
-  show_right_side(showcase);
-  show_left_side_and_end(showcase);
+  show_middle(showcase);
+  show_far_end(showcase);
 }
 
 }  // namespace luciole::workshop::gallery

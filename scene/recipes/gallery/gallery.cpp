@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The showcase: a museum hall of polished metal in the evening sun.
+#include <cmath>
+
 #include "scene/recipes/gallery/exhibits.h"
 #include "scene/recipes/gallery/hall.h"
 #include "scene/recipes/recipe_list.h"
@@ -7,13 +9,17 @@
 namespace luciole::workshop {
 namespace {
 
+// The sun stands low enough to reach the far wall and a little ahead of the camera, so that reflections fall towards it.
 void add_lights(Scene& scene) {
-  // Low enough to reach the far wall, from ahead of the camera, so that reflections fall towards it.
-  const Vec3 towards{std::cos(radians(24)) * std::cos(radians(20)), -std::sin(radians(24)),
-                     std::cos(radians(24)) * std::sin(radians(20))};
+  const float elevation = radians(24), ahead = radians(8);
+  const Vec3 towards{std::cos(elevation) * std::cos(ahead), -std::sin(elevation),
+                     std::cos(elevation) * std::sin(ahead)};
   scene.lights.push_back(sun_light("evening sun", towards, {40, 33, 23}));
-  scene.lights.push_back(spot_light("spot on the crown", {{0.4f, 5.6f, 5.2f}, {2.7f, 1.2f, 3.4f}}, {160, 150, 130}, 9, 15));
-  scene.lights.push_back(spot_light("spot on the stairs", {{-2.6f, 5.6f, -3.4f}, {2.4f, 1.6f, -7.2f}}, {300, 290, 260}, 12, 20));
+  scene.lights.push_back(
+      spot_light("spot on the table", {{-0.4f, 5.9f, 5.4f}, {1.95f, 0.9f, 3.1f}}, {150, 142, 125}, 9, 15));
+  // From where its mirror image in the letters is seen by the camera.
+  scene.lights.push_back(
+      spot_light("spot on the letters", {{-1.5f, 5.2f, -3.6f}, {-0.6f, 3.9f, -9.5f}}, {420, 390, 320}, 20, 32));
   scene.environment.radiance = {3.0f, 3.6f, 4.6f};
 }
 
@@ -27,7 +33,7 @@ Scene make_gallery(const Values& values) {
   gallery::add_joinery(scene, materials, detail);
   gallery::add_exhibits(scene, materials, detail);
   add_lights(scene);
-  scene.cameras.push_back(named_camera("showcase", {{1.9f, 1.6f, 8.3f}, {-0.7f, 1.25f, -1.0f}}, 50));
+  scene.cameras.push_back(named_camera("showcase", {{1.75f, 1.65f, 7.7f}, {-0.75f, 1.12f, -1.0f}}, 50));
   return scene;
 }
 

@@ -10,7 +10,7 @@ namespace luciole::workshop::gallery {
 inline constexpr int kBays = 4;
 inline constexpr float kHalfWidth = 4.5f, kBayLength = 4.8f, kHalfLength = kBays * kBayLength / 2;
 inline constexpr float kSpringing = 4.2f, kRise = 3.1f;  // where the vault starts, and how far it climbs
-inline constexpr float kWindowHalfWidth = 1.15f, kWindowSill = 0.9f, kWindowSpringing = 4.6f;
+inline constexpr float kWindowHalfWidth = 1.5f, kWindowSill = 0.8f, kWindowSpringing = 4.35f;
 inline constexpr float kWallThickness = 0.55f;
 
 inline float bay_centre(int bay) { return (static_cast<float>(bay) + 0.5f) * kBayLength - kHalfLength; }

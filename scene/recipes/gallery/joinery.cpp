@@ -42,7 +42,7 @@ void add_wall_lines(Mesh& stone) {
 }
 
 Mesh carpet(Detail detail) {
-  const std::uint32_t columns = detail.segments(96, 8), rows = detail.segments(192, 8);
+  const std::uint32_t columns = detail.segments(48, 8), rows = detail.segments(96, 8);
   Mesh mesh = grid_surface({columns, rows, false, false, {1, 1}}, [](float u, float v) {
     // It lies almost flat: a low wave here and there, and its rim on the floor.
     const float rim = std::min({u * 24, (1 - u) * 24, v * 48, (1 - v) * 48, 1.0f});

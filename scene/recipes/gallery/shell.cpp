@@ -90,7 +90,7 @@ Mesh glazing(float middle, Detail detail) {
     append(mesh, sweep({{place(a), place(b)}, false, rounded_rectangle({thick, thick * 1.4f}, thick * 0.2f), nullptr,
                         Vec3{1, 0, 0}}));
   };
-  for (const float z : {-w / 3, w / 3}) bar({z, kWindowSill + 0.16f}, {z, kWindowSpringing}, 0.05f);
+  for (const float z : {-w / 2, 0.0f, w / 2}) bar({z, kWindowSill + 0.16f}, {z, kWindowSpringing}, 0.05f);
   for (int row = 1; row <= 4; ++row) {
     const float y = std::lerp(kWindowSill + 0.16f, kWindowSpringing, static_cast<float>(row) / 4);
     bar({-w, y}, {w, y}, row == 4 ? 0.07f : 0.035f);

@@ -25,8 +25,8 @@ Mesh baluster(float height, Detail detail) {
                           {0.012f, 0.25f * height}, {0.024f, 0.42f * height}, {0.010f, 0.55f * height, 0.003f},
                           {0.018f, 0.58f * height}, {0.010f, 0.61f * height, 0.003f}, {0.009f, height - 0.02f},
                           {0.014f, height, kCrisp}},
-                         detail.segments(36, 12)),
-               detail.segments(18, 8));
+                         detail.segments(30, 12)),
+               detail.segments(14, 7));
 }
 
 }  // namespace

@@ -10,11 +10,11 @@ namespace luciole::workshop::gallery {
 
 Mesh torus_knot(Detail detail) {
   // Winds 2 times round the axis and 3 times round the ring: a trefoil, standing upright.
-  const auto path = curve(detail.segments(480, 48), true, [](float along) {
+  const auto path = curve(detail.segments(400, 48), true, [](float along) {
     const float angle = kTwoPi * along, r = 0.30f + 0.125f * std::cos(3 * angle);
     return Vec3{r * std::cos(2 * angle), 0.50f + r * std::sin(2 * angle), 0.16f * std::sin(3 * angle)};
   });
-  return tube(path, 0.072f, detail.segments(64, 8), true);
+  return tube(path, 0.072f, detail.segments(56, 8), true);
 }
 
 Mesh coil_spring(Detail detail) {
@@ -59,7 +59,7 @@ Mesh trumpet(Detail detail) {
 }
 
 Mesh armillary_sphere(Detail detail) {
-  const std::uint32_t around = detail.segments(160, 20);
+  const std::uint32_t around = detail.segments(128, 20);
   const auto band = [&](float radius, float width) {
     const auto path = curve(around, true, [=](float along) {
       return Vec3{radius * std::cos(kTwoPi * along), 0, -radius * std::sin(kTwoPi * along)};

@@ -33,7 +33,7 @@ Mesh bowl(Detail detail) {
                                {0.29f, 0.125f},
                                {0.12f, 0.055f},
                                {0, 0.045f, kCrisp}},
-                              detail.segments(170, 24)),
+                              detail.segments(140, 24)),
                     detail.segments(224, 20));
   return mesh;
 }
@@ -55,8 +55,8 @@ Mesh amphora(Detail detail) {
                                                {0.095f, 1.27f},
                                                {0.085f, 1.12f},
                                                {0, 1.02f, kCrisp}},
-                                              detail.segments(190, 30));
-  const std::uint32_t columns = detail.segments(256, 24);
+                                              detail.segments(150, 30));
+  const std::uint32_t columns = detail.segments(224, 24);
   Mesh mesh = lathe(profile, columns);
   std::vector<Vec3> points = mesh.positions;
   for (Vec3& p : points) {
@@ -94,8 +94,8 @@ Mesh goblet(Detail detail) {
                           {0.142f, 0.47f},
                           {0.13f, 0.36f},
                           {0, 0.295f, kCrisp}},
-                         detail.segments(190, 30)),
-               detail.segments(160, 16));
+                         detail.segments(150, 30)),
+               detail.segments(128, 16));
 }
 
 Mesh bell(Detail detail) {
@@ -115,8 +115,8 @@ Mesh bell(Detail detail) {
                                {0.225f, 0.63f, 0.004f},
                                {0.15f, 0.735f},
                                {0, 0.75f, kCrisp}},
-                              detail.segments(150, 30)),
-                    detail.segments(192, 16));
+                              detail.segments(120, 30)),
+                    detail.segments(160, 16));
   const auto loop = curve(detail.segments(48, 10), true, [](float along) {
     return Vec3{0.075f * std::cos(kTwoPi * along), 0.81f + 0.075f * std::sin(kTwoPi * along), 0};
   });
@@ -139,8 +139,8 @@ Mesh mirror_dish(Detail detail) {
                           {0.42f, 0.106f},
                           {0.2f, 0.040f},
                           {0, 0.03f, kCrisp}},
-                         detail.segments(130, 24)),
-               detail.segments(224, 20));
+                         detail.segments(110, 24)),
+               detail.segments(200, 20));
 }
 
 Mesh candlestick(Detail detail) {

@@ -64,7 +64,7 @@ Mesh rib(Vec3 ends, float width, float drop, Detail detail) {
                                                  {width / 2, 0.04f, 0.001f}},
                                                 20);
   // The section's "up" is away from the middle of the springing line, so that the rib hangs off the vault.
-  const auto path = curve(detail.segments(72, 12) + 1, false, [&](float along) {
+  const auto path = curve(detail.segments(60, 12) + 1, false, [&](float along) {
     const float s = arch_place(along);
     return Vec3{ends.x * s, vault_height(s), ends.z * s};
   });
