@@ -67,6 +67,7 @@ TEST(NarrowedEllipsoid, contains_the_lobe) {
   const Worst worst = worst_form(kNarrowed, 100000, 12);
   EXPECT_LE(worst.form, 1 + 1e-6);
   EXPECT_LE(worst.form_in_float, 1 + 1e-4);
+  EXPECT_GT(worst.form_of_narrow, 1 + 1e-3) << "2 % too narrow is caught";
 }
 
 TEST(FittedEllipsoid, contains_the_lobe) {
@@ -80,6 +81,7 @@ TEST(TightEllipsoid, contains_the_lobe) {
   const Worst worst = worst_form(kTight, 30000, 40);
   EXPECT_LE(worst.form, 1 + 1e-6);
   EXPECT_LE(worst.form_in_float, 1 + 1e-4);
+  EXPECT_GT(worst.form_of_narrow, 1 + 1e-3) << "2 % too narrow is caught";
 }
 
 // Mean over cos(theta_i) of the volume over that of the spheroid.

@@ -110,12 +110,14 @@ LUCIOLE_FN TileTestEllipsoid prepare_ellipsoid(ViewFrame view, BoundingEllipsoid
   const real3 su = u * radii.x;
   const real3 sv = v * radii.y;
   const real3 sw = w * radii.z;
-  const real tolerance = 1.001f;  // of the side planes, in float
-  t.sxx = (su.x * su.x + sv.x * sv.x + sw.x * sw.x) * tolerance;
+  // Side planes in float: a part of the support, and what a long axis loses when a thin one is seen edge on.
+  const real tolerance = 1.001f;
+  const real edge_on = 2e-6f * (dot(su, su) + dot(sv, sv) + dot(sw, sw));
+  t.sxx = (su.x * su.x + sv.x * sv.x + sw.x * sw.x) * tolerance + edge_on;
   t.sxz = (su.x * su.z + sv.x * sv.z + sw.x * sw.z) * tolerance;
-  t.syy = (su.y * su.y + sv.y * sv.y + sw.y * sw.y) * tolerance;
+  t.syy = (su.y * su.y + sv.y * sv.y + sw.y * sw.y) * tolerance + edge_on;
   t.syz = (su.y * su.z + sv.y * sv.z + sw.y * sw.z) * tolerance;
-  t.szz = (su.z * su.z + sv.z * sv.z + sw.z * sw.z) * tolerance;
+  t.szz = (su.z * su.z + sv.z * sv.z + sw.z * sw.z) * tolerance + edge_on;
   t.surface = surface;
   return t;
 }
