@@ -231,7 +231,7 @@ TEST_F(CommandLine, interrupted_accumulation_writes_what_is_complete) {
 }
 
 TEST_F(CommandLine, interrupted_in_its_only_frame_writes_nothing) {
-  const pid_t child = start({"render", "recipe:cornell", "--size", "4096x4096", "--vpls", "1000000", "--culling",
+  const pid_t child = start({"render", "recipe:cornell", "--size", "1024x1024", "--vpls", "65536", "--culling",
                              "none", "--ranges", "infinite", "--interleave", "1", "-o", "out/a.exr"});
   std::this_thread::sleep_for(std::chrono::seconds(2));
   kill(child, SIGINT);
