@@ -4,7 +4,7 @@ find_program(GLSLC glslc REQUIRED)
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
-# equations_shader_test(name "text of the body") with both front ends
+# equations_shader_test(name includes glsl_body hlsl_body): two tests, glsl_<name> and hlsl_<name>
 function(equations_shader_test name includes glsl_body hlsl_body)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/shaders)
   file(CONFIGURE OUTPUT ${folder}/${name}.comp CONTENT "#version 460
