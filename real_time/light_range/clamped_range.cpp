@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "real_time/light_range/clamped_range.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numeric>
@@ -15,18 +16,22 @@
 namespace luciole {
 namespace {
 
-constexpr std::uint32_t kSampledGroups = 96;  // of 16 pixels, spread evenly over the picture
-constexpr int kBisections = 16;               // of log2(xi) over 32: xi to 0.04 %
+constexpr std::uint32_t kSampledGrids = 16;  // of up to 256 pixels each, spread evenly over the picture
+constexpr int kBisections = 16;              // of log2(xi) over 32: xi to 0.04 %
 
+// A tile of very coarse interleaving is a regular grid of pixels over the whole picture.
 std::vector<PixelGroup> sample_groups(const GeometryBuffer& geometry) {
-  const std::uint32_t tiles_x = (geometry.width + kTileSide - 1) / kTileSide;
-  const std::uint32_t tiles = tiles_x * ((geometry.height + kTileSide - 1) / kTileSide);
+  const std::uint32_t step = (std::max(geometry.width, geometry.height) + kTileSide - 1) / kTileSide;
   std::vector<PixelGroup> groups;
   ScreenTile tile;
-  for (std::uint32_t i = 0; i < kSampledGroups; ++i) {
-    const auto at = static_cast<std::uint32_t>(std::uint64_t{i} * tiles / kSampledGroups);
-    read_tile(geometry, {1, at % tiles_x, at / tiles_x, 0, 0}, tile);
-    if (tile.group_count > 0) groups.push_back(tile.groups[i * 7 % tile.group_count]);
+  for (std::uint32_t i = 0; i < kSampledGrids; ++i) {
+    // Offsets of the plastic-number sequence: even in both directions for any number of grids.
+    const double x = 0.7548776662466927 * (i + 1), y = 0.5698402909980532 * (i + 1);
+    read_tile(geometry,
+              {step, 0, 0, static_cast<std::uint32_t>((x - std::floor(x)) * step),
+               static_cast<std::uint32_t>((y - std::floor(y)) * step)},
+              tile);
+    groups.insert(groups.end(), tile.groups.begin(), tile.groups.begin() + tile.group_count);
   }
   return groups;
 }

@@ -118,8 +118,10 @@ LUCIOLE_FN real peak_over_delta(const RangeParameters& p, real3 rgb) {
   return largest_channel(rgb) * p.exposure_over_delta;
 }
 
+// How many lanes from `lane` on hold one of `count` lights.
 LUCIOLE_FN int lanes_in_use(int lane, std::uint32_t count) {
-  return static_cast<int>(count) - lane < kLanes ? static_cast<int>(count) - lane : kLanes;
+  const int left = static_cast<int>(count) - lane;
+  return left < 0 ? 0 : left < kLanes ? left : kLanes;
 }
 
 LUCIOLE_FN BoundingEllipsoid diffuse_bound(const RangeParameters& p, real3 position, real3 normal, real reach_flux) {
