@@ -30,42 +30,46 @@ struct Corners {
   }
 };
 
-// Looks up a material's textures at one hit.
+// Looks up a material's textures at one hit. Both coordinate sets are interpolated once, for all the slots.
 class TextureLookUp {
  public:
+  TextureLookUp(const Scene& scene, const Mesh& mesh, const Corners& corners) : scene_(scene) {
+    for (std::size_t set = 0; set < 2; ++set) {
+      if (!mesh.uv[set].empty()) uv_[set] = corners.mix(mesh.uv[set]);
+    }
+  }
+
+  // Without this every look-up is at the finest level.
   //   doubled_area    of the triangle [m^2]
   //   cos_at_surface  |cosine| between ray and geometric normal
-  TextureLookUp(const Scene& scene, const Mesh& mesh, const Corners& corners)
-      : scene_(scene), mesh_(mesh), corners_(corners) {}
-  void set_cone(float doubled_area, float cone_width, float cos_at_surface) {
-    doubled_area_ = doubled_area;
+  void set_cone(const Mesh& mesh, const Corners& corners, float doubled_area, float cone_width, float cos_at_surface) {
+    if (!(cone_width > 0) || !(doubled_area > 0)) return;
     cone_width_ = cone_width;
     cos_at_surface_ = cos_at_surface;
+    for (std::size_t set = 0; set < 2; ++set) {
+      const std::vector<Vec2>& uv = mesh.uv[set];
+      if (uv.empty()) continue;
+      const Vec2 d1 = uv[corners.index[1]] - uv[corners.index[0]], d2 = uv[corners.index[2]] - uv[corners.index[0]];
+      uv_area_per_area_[set] = std::abs(d1.x * d2.y - d2.x * d1.y) / doubled_area;
+    }
   }
 
   // White where the slot has no texture, as the format says.
   Vec4 sample(const TextureSlot& slot) const {
     if (slot.texture < 0) return {1, 1, 1, 1};
     const Texture& texture = scene_.textures[static_cast<std::size_t>(slot.texture)];
-    const std::vector<Vec2>& uv = mesh_.uv[slot.uv_set];
-    if (uv.empty()) return sample_texture(texture, slot.transform({0, 0}), 0);
-    return sample_texture(texture, slot.transform(corners_.mix(uv)), level_of_detail(slot, uv, *texture.image));
+    const MipImage::Level& finest = texture.image->levels[0];
+    const float density = uv_area_per_area_[slot.uv_set] * std::abs(slot.a * slot.d - slot.b * slot.c);
+    const float texels = static_cast<float>(finest.width) * static_cast<float>(finest.height);
+    const float lod = texture_level_of_detail(density, texels, cone_width_, cos_at_surface_);
+    return sample_texture(texture, slot.transform(uv_[slot.uv_set]), lod);
   }
 
  private:
-  float level_of_detail(const TextureSlot& slot, const std::vector<Vec2>& uv, const MipImage& image) const {
-    if (!(cone_width_ > 0) || !(doubled_area_ > 0)) return 0;
-    const Vec2 origin = uv[corners_.index[0]];
-    const Vec2 d1 = uv[corners_.index[1]] - origin, d2 = uv[corners_.index[2]] - origin;
-    const float doubled_uv_area = std::abs((d1.x * d2.y - d2.x * d1.y) * (slot.a * slot.d - slot.b * slot.c));
-    const auto texels = static_cast<float>(image.levels[0].width) * static_cast<float>(image.levels[0].height);
-    return texture_level_of_detail(doubled_uv_area / doubled_area_, texels, cone_width_, cos_at_surface_);
-  }
-
   const Scene& scene_;
-  const Mesh& mesh_;
-  const Corners& corners_;
-  float doubled_area_ = 0, cone_width_ = 0, cos_at_surface_ = 1;
+  Vec2 uv_[2];                          // (0, 0) where the mesh has no such set
+  float uv_area_per_area_[2] = {0, 0};  // [1/m^2]
+  float cone_width_ = 0, cos_at_surface_ = 1;
 };
 
 Vec4 base_colour_and_alpha(const Material& material, const Mesh& mesh, const Corners& corners,
@@ -155,7 +159,7 @@ SurfacePoint evaluate_surface(const Scene& scene, const SurfaceHit& hit, Vec3 ra
   const Vec3 front_normal = doubled_area > 0 ? area_vector / doubled_area : -ray_direction;
   const float cosine = dot(front_normal, ray_direction);
   TextureLookUp textures(scene, mesh, corners);
-  textures.set_cone(doubled_area, cone_width, std::abs(cosine));
+  textures.set_cone(mesh, corners, doubled_area, cone_width, std::abs(cosine));
 
   SurfacePoint point;
   point.position = corners.mix(mesh.positions);
