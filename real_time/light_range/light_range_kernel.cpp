@@ -86,8 +86,23 @@ LUCIOLE_FN void store_test_rows(const TileTestEllipsoid& t, BoundBlock& block, i
   store_row(block, BoundBlock::kSyz, lane, t.syz), store_row(block, BoundBlock::kSzz, lane, t.szz);
 }
 
-LUCIOLE_FN void store_bound(const RangeParameters& p, const ViewFrame& view, BoundingEllipsoid e, real3 position,
-                            real3 normal, mask reaches, BoundBlock& block, int lane) {
+// A rare random number near 0 gives a range whose square a float cannot hold. Beyond this radius, far outside any
+// scene, a sphere round the light is as good.
+constexpr float kLargestRadius = 1e8f;  // [m]
+
+LUCIOLE_FN BoundingEllipsoid within_float(BoundingEllipsoid e, real3 position) {
+  const mask fits = max(max(e.r_u, e.r_v), e.r_w) < kLargestRadius;  // false for infinity and for what is no number
+  const real largest = kLargestRadius;
+  e.centre = select(fits, e.centre, position);
+  e.r_u = select(fits, e.r_u, largest);
+  e.r_v = select(fits, e.r_v, largest);
+  e.r_w = select(fits, e.r_w, largest);
+  return e;
+}
+
+LUCIOLE_FN void store_bound(const RangeParameters& p, const ViewFrame& view, BoundingEllipsoid unlimited,
+                            real3 position, real3 normal, mask reaches, BoundBlock& block, int lane) {
+  const BoundingEllipsoid e = within_float(unlimited, position);
   const real3 centre = view_from_world(view, e.centre);
   const real radius = max(max(e.r_u, e.r_v), e.r_w) * 1.0001f + 4e-6f * length(centre);
   store_rows(block, BoundBlock::kCentreX, lane, centre);
