@@ -6,14 +6,18 @@
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-# Every library target luciole_* of a folder and the folders below.
+# The rooms that other programs may use; apps, tests and benchmarks stay here.
+set(luciole_installed_folders base equations image scene shot ray_tracing real_time)
+
+# Every library luciole_* that a folder or one below builds by default.
 function(luciole_collect_rooms folder result)
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   get_property(subfolders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
   set(rooms)
   foreach(target ${targets})
     get_target_property(type ${target} TYPE)
-    if(target MATCHES "^luciole_" AND type MATCHES "STATIC_LIBRARY|INTERFACE_LIBRARY|OBJECT_LIBRARY")
+    get_target_property(only_for_tests ${target} EXCLUDE_FROM_ALL)
+    if(target MATCHES "^luciole_" AND type MATCHES "STATIC_LIBRARY|INTERFACE_LIBRARY" AND NOT only_for_tests)
       list(APPEND rooms ${target})
     endif()
   endforeach()
@@ -24,21 +28,24 @@ function(luciole_collect_rooms folder result)
   set(${result} ${rooms} PARENT_SCOPE)
 endfunction()
 
-luciole_collect_rooms(${PROJECT_SOURCE_DIR} luciole_rooms)
+set(luciole_rooms luciole_flags)
+foreach(folder ${luciole_installed_folders})
+  luciole_collect_rooms(${PROJECT_SOURCE_DIR}/${folder} rooms)
+  list(APPEND luciole_rooms ${rooms})
+endforeach()
 foreach(room ${luciole_rooms})
   string(REPLACE "luciole_" "" name ${room})
   set_target_properties(${room} PROPERTIES EXPORT_NAME ${name})
 endforeach()
 set(luciole_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/luciole)
-install(TARGETS ${luciole_rooms} EXPORT luciole-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/luciole
-                                                        OBJECTS DESTINATION ${CMAKE_INSTALL_LIBDIR}/luciole)
+install(TARGETS ${luciole_rooms} EXPORT luciole-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/luciole)
 install(EXPORT luciole-targets NAMESPACE luciole:: DESTINATION ${luciole_package_dir})
 if(TARGET luciole)
   install(TARGETS luciole RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
 # Folders keep their names, so that the same #include works inside and outside the tree.
-foreach(folder base equations image scene shot ray_tracing real_time)
+foreach(folder ${luciole_installed_folders})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION include/luciole FILES_MATCHING
           PATTERN "*.h" PATTERN "*.inc")
 endforeach()
