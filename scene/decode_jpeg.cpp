@@ -23,6 +23,8 @@ DecodedImage decode_jpeg(std::span<const std::uint8_t> file, const std::string& 
   const auto size = static_cast<unsigned long>(file.size());
   if (tjDecompressHeader3(decoder.get(), file.data(), size, &width, &height, &subsampling, &colour_space) != 0)
     broken();
+  // A file that ends before its frame header passes the call above and has no size.
+  if (width <= 0 || height <= 0) fail("IMAGE_UNEXPECTED_EOS", object, "is a broken JPEG: it ends inside its header");
   if (colour_space == TJCS_CMYK || colour_space == TJCS_YCCK) {
     fail("IMAGE_FEATURES_UNSUPPORTED", object, "is a CMYK JPEG; store it as RGB");
   }
