@@ -95,10 +95,17 @@ check() {
   tests/check.sh
 }
 
+# Every benchmarks/NAME_benchmark.cpp is a target of its name and runs without arguments.
 bench() {
   need run test
-  configure build -DCMAKE_BUILD_TYPE=Release -DLUCIOLE_TESTS=OFF -DLUCIOLE_BENCHMARKS=ON
-  cmake --build build --target benchmarks
+  build_program ON
+  local source name
+  for source in benchmarks/*_benchmark.cpp; do
+    name=$(basename "$source" .cpp)
+    cmake --build build --target "$name"
+    echo "== $name"
+    "$(find build -name "$name" -type f -perm -u+x -print -quit)"
+  done
 }
 
 format() {

@@ -57,7 +57,7 @@ void declare_options(CLI::App& command, RenderOptions& options) {
       ->allow_extra_args(false);
   command.add_option("--scenes", options.scenes, "folder of scenes (else $LUCIOLE_SCENES, else ./scenes)");
   command.add_option("--camera", options.camera, "x,y,z/x,y,z/degrees (eye, target, field of view), or name or index");
-  command.add_option("--environment", options.environment, "sky: equirectangular FILE.exr");
+  command.add_option("--environment", options.environment, "sky: equirectangular FILE.exr or FILE.hdr");
   command.add_option("--accumulate", options.accumulate, "mean of N frames with new random numbers")
       ->check(CLI::Range(1u, 1000000u));
   command.add_option("--frames", options.frames, "A-B: frames of these indices, numbered by #### in -o");

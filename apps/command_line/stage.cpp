@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "image/exr.h"
 #include "scene/default_lights.h"
+#include "scene/load_environment.h"
 
 namespace luciole {
 namespace {
@@ -90,6 +91,7 @@ std::vector<std::string> left_out(const Scene& scene, const PrimaryLights& prima
 }
 
 Result<Environment> read_environment(const std::filesystem::path& path) {
+  if (path.extension() == ".hdr") return load_environment(path);
   const Result<Image> image = read_exr(path);
   if (!image) return image.error();
   Environment sky{Vec3(1, 1, 1), image->width, image->height, image->colours("")};

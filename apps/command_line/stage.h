@@ -22,7 +22,7 @@ PrimaryLights strongest_as_primary(const Scene& scene);
 // not.
 std::vector<std::string> left_out(const Scene& scene, const PrimaryLights& primaries);
 
-// A sky from an equirectangular OpenEXR picture.
+// A sky from an equirectangular picture: OpenEXR (.exr) or Radiance (.hdr).
 Result<Environment> read_environment(const std::filesystem::path& path);
 
 }  // namespace luciole
