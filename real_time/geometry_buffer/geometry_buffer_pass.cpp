@@ -37,79 +37,80 @@ struct ScreenRays {
   }
 };
 
-void set(Plane3& planes, std::size_t at, Vec3 value) {
-  planes[0][at] = value.x, planes[1][at] = value.y, planes[2][at] = value.z;
+// The pixels of one block, before they go to the planes. Written straight from here pixel by pixel, 25 planes would be
+// 25 streams of scattered stores, each of which misses caches and address translation.
+struct BlockPixel {
+  SurfacePoint point;
+  float depth;
+  std::uint32_t material;
+};
+struct Block {
+  std::uint32_t left, top, width, height;  // of the part inside the screen
+  BlockPixel pixels[kBlock * kBlock];      // row-major, kBlock per row
+};
+
+BlockPixel sky_pixel(Vec3 radiance) {
+  BlockPixel pixel{{}, kNoSurface, kNoMaterial};
+  pixel.point.ggx_alpha = 1;
+  pixel.point.emission = radiance;
+  return pixel;
 }
 
-void write_surface(const SurfacePoint& point, float depth, std::uint32_t material, std::size_t at,
-                   GeometryBuffer& out) {
-  out.depth[at] = depth;
-  set(out.position, at, point.position);
-  set(out.normal, at, point.shading_normal);
-  set(out.geometric_normal, at, point.geometric_normal);
-  set(out.diffuse_albedo, at, point.diffuse_albedo);
-  set(out.f0, at, point.f0);
-  out.f90[at] = point.f90;
-  out.ggx_alpha[at] = point.ggx_alpha;
-  set(out.emission, at, point.emission);
-  out.material[at] = material;
-}
-
-void write_sky(Vec3 radiance, std::size_t at, GeometryBuffer& out) {
-  SurfacePoint nothing{};
-  nothing.ggx_alpha = 1;
-  nothing.emission = radiance;
-  write_surface(nothing, kNoSurface, kNoMaterial, at, out);
-}
-
-// Starts to fetch what the surfaces of a packet are made of: first the corners of all triangles, then their vertices.
-// One pixel after the other would wait for memory 16 times over.
-void prefetch_surfaces(const Scene& scene, const HitPacket& hits) {
-  for (int lane = 0; lane < kPacketRays; ++lane) {
-    if (hits.mesh[lane] == kNoHit) continue;
-    __builtin_prefetch(&scene.meshes[hits.mesh[lane]].indices[std::size_t(hits.triangle[lane]) * 3]);
-  }
-  for (int lane = 0; lane < kPacketRays; ++lane) {
-    if (hits.mesh[lane] == kNoHit) continue;
-    const Mesh& mesh = scene.meshes[hits.mesh[lane]];
-    for (int corner = 0; corner < 3; ++corner) {
-      const std::uint32_t index = mesh.indices[std::size_t(hits.triangle[lane]) * 3 + static_cast<std::size_t>(corner)];
-      __builtin_prefetch(&mesh.positions[index]);
-      if (!mesh.normals.empty()) __builtin_prefetch(&mesh.normals[index]);
-      if (!mesh.tangents.empty()) __builtin_prefetch(&mesh.tangents[index]);
-      if (!mesh.uv[0].empty()) __builtin_prefetch(&mesh.uv[0][index]);
-    }
-  }
-}
-
-// Traces and writes the 4x4 pixels from (x0, y0) on.
+// Traces the 4x4 pixels from (x0, y0) of the block on.
 void render_packet(const GeometryBufferInputs& inputs, const ScreenRays& screen, std::uint32_t x0, std::uint32_t y0,
-                   GeometryBuffer& out) {
+                   Block& block) {
   RayPacket rays;
   Vec3 directions[kPacketRays];
   for (std::uint32_t lane = 0; lane < kPacketRays; ++lane) {
     const std::uint32_t x = x0 + lane % 4, y = y0 + lane / 4;
-    directions[lane] = screen.direction(x, y);
+    directions[lane] = screen.direction(block.left + x, block.top + y);
     rays.set(static_cast<int>(lane), inputs.camera.eye, directions[lane], 0, kNoSurface);
-    if (x >= out.width || y >= out.height) rays.active[lane] = 0;
+    if (x >= block.width || y >= block.height) rays.active[lane] = 0;
   }
   const HitPacket hits = inputs.scene.intersect(rays, Coherence::coherent);
   const Scene& scene = inputs.scene.scene();
-  prefetch_surfaces(scene, hits);
   for (std::uint32_t lane = 0; lane < kPacketRays; ++lane) {
     if (rays.active[lane] == 0) continue;
-    const std::size_t at = std::size_t(y0 + lane / 4) * out.width + (x0 + lane % 4);
+    BlockPixel& pixel = block.pixels[(y0 + lane / 4) * kBlock + (x0 + lane % 4)];
     const Vec3 direction = normalize(directions[lane]);
     if (hits.mesh[lane] == kNoHit) {
-      write_sky(sky_radiance(scene.environment, direction), at, out);
+      pixel = sky_pixel(sky_radiance(scene.environment, direction));
       continue;
     }
     const SurfaceHit hit{hits.mesh[lane], hits.triangle[lane], hits.u[lane], hits.v[lane]};
     const float cone_width = screen.pixel_size * hits.distance[lane];
-    const SurfacePoint point = evaluate_surface(scene, hit, direction, cone_width);
-    const float depth = dot(point.position - inputs.camera.eye, inputs.camera.forward);
-    write_surface(point, depth, scene.meshes[hit.mesh].material, at, out);
+    pixel.point = evaluate_surface(scene, hit, direction, cone_width);
+    pixel.depth = dot(pixel.point.position - inputs.camera.eye, inputs.camera.forward);
+    pixel.material = scene.meshes[hit.mesh].material;
   }
+}
+
+// Copies one value of every pixel of a block to its plane, a row at a time.
+template <class T, class Value>
+void write_plane(const Block& block, const GeometryBuffer& screen, AlignedVector<T>& plane, const Value& value) {
+  for (std::uint32_t y = 0; y < block.height; ++y) {
+    T* row = plane.data() + std::size_t(block.top + y) * screen.width + block.left;
+    for (std::uint32_t x = 0; x < block.width; ++x) row[x] = value(block.pixels[y * kBlock + x]);
+  }
+}
+
+void write_planes(const Block& block, const GeometryBuffer& screen, Plane3& planes, Vec3 SurfacePoint::*member) {
+  write_plane(block, screen, planes[0], [member](const BlockPixel& p) { return (p.point.*member).x; });
+  write_plane(block, screen, planes[1], [member](const BlockPixel& p) { return (p.point.*member).y; });
+  write_plane(block, screen, planes[2], [member](const BlockPixel& p) { return (p.point.*member).z; });
+}
+
+void write_block(const Block& block, GeometryBuffer& out) {
+  write_plane(block, out, out.depth, [](const BlockPixel& p) { return p.depth; });
+  write_planes(block, out, out.position, &SurfacePoint::position);
+  write_planes(block, out, out.normal, &SurfacePoint::shading_normal);
+  write_planes(block, out, out.geometric_normal, &SurfacePoint::geometric_normal);
+  write_planes(block, out, out.diffuse_albedo, &SurfacePoint::diffuse_albedo);
+  write_planes(block, out, out.f0, &SurfacePoint::f0);
+  write_plane(block, out, out.f90, [](const BlockPixel& p) { return p.point.f90; });
+  write_plane(block, out, out.ggx_alpha, [](const BlockPixel& p) { return p.point.ggx_alpha; });
+  write_planes(block, out, out.emission, &SurfacePoint::emission);
+  write_plane(block, out, out.material, [](const BlockPixel& p) { return p.material; });
 }
 
 }  // namespace
@@ -121,14 +122,16 @@ void render_geometry_buffer(const GeometryBufferInputs& inputs, GeometryBuffer& 
   const ScreenRays screen(inputs);
   const std::uint32_t columns = (inputs.width + kBlock - 1) / kBlock, rows = (inputs.height + kBlock - 1) / kBlock;
   parallel_for(std::size_t(columns) * rows, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t block = begin; block < end; ++block) {
-      const auto left = static_cast<std::uint32_t>(block % columns) * kBlock;
-      const auto top = static_cast<std::uint32_t>(block / columns) * kBlock;
-      for (std::uint32_t y = top; y < std::min(top + kBlock, inputs.height); y += 4) {
-        for (std::uint32_t x = left; x < std::min(left + kBlock, inputs.width); x += 4) {
-          render_packet(inputs, screen, x, y, buffer);
-        }
+    Block block;
+    for (std::size_t i = begin; i < end; ++i) {
+      block.left = static_cast<std::uint32_t>(i % columns) * kBlock;
+      block.top = static_cast<std::uint32_t>(i / columns) * kBlock;
+      block.width = std::min(kBlock, inputs.width - block.left);
+      block.height = std::min(kBlock, inputs.height - block.top);
+      for (std::uint32_t y = 0; y < block.height; y += 4) {
+        for (std::uint32_t x = 0; x < block.width; x += 4) render_packet(inputs, screen, x, y, block);
       }
+      write_block(block, buffer);
     }
   });
 }
