@@ -231,8 +231,8 @@ TEST_F(CommandLine, interrupted_accumulation_writes_what_is_complete) {
 }
 
 TEST_F(CommandLine, interrupted_in_its_only_frame_writes_nothing) {
-  const pid_t child = start({"render", "recipe:cornell", "--size", "1024x1024", "--vpls", "65536", "--culling",
-                             "none", "--ranges", "infinite", "--interleave", "1", "-o", "out/a.exr"});
+  const pid_t child = start({"render", "recipe:cornell", "--size", "1024x1024", "--vpls", "65536", "--culling", "none",
+                             "--ranges", "infinite", "--interleave", "1", "-o", "out/a.exr"});
   std::this_thread::sleep_for(std::chrono::seconds(2));
   kill(child, SIGINT);
   const Outcome outcome = finish(child);
