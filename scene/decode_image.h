@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "base/aligned_vector.h"
 #include "scene/file_access.h"
 
 namespace luciole {
 
 struct DecodedImage {
   std::uint32_t width = 0, height = 0;
-  std::vector<std::uint8_t> rgba;  // width * height * 4, row 0 on top; alpha not premultiplied
+  AlignedVector<std::uint8_t> rgba;  // width * height * 4, row 0 on top; alpha not premultiplied
 };
 
 // What all images of one scene may take. Charged with the size that a header states, before pixels are decoded.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/affine.h"
+#include "base/aligned_vector.h"
 #include "base/vector.h"
 
 namespace luciole {
@@ -18,7 +19,7 @@ namespace luciole {
 struct MipImage {
   struct Level {
     std::uint32_t width = 0, height = 0;
-    std::vector<std::uint8_t> rgba;  // width * height * 4
+    AlignedVector<std::uint8_t> rgba;  // width * height * 4; on huge pages: each row of a texture would be a page
   };
   std::vector<Level> levels;
   bool srgb = false;       // colour channels are sRGB-encoded; alpha is always linear

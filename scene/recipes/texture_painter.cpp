@@ -29,7 +29,7 @@ float lattice(std::uint32_t x, std::uint32_t y, std::uint32_t period, std::uint3
 }  // namespace
 
 Texture paint(const std::string& name, std::uint32_t size, Encoding encoding, const PaintColour& colour) {
-  DecodedImage image{size, size, std::vector<std::uint8_t>(std::size_t(4) * size * size, 255)};
+  DecodedImage image{size, size, AlignedVector<std::uint8_t>(std::size_t(4) * size * size, 255)};
   parallel_for(size, 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y) {
       for (std::size_t x = 0; x < size; ++x) {
