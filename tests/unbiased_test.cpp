@@ -2,6 +2,7 @@
 // The mean over random ranges is the sum over all lights: the image z-test, on bundled scenes, and what it must reject.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <functional>
 
 #include "image/z_test.h"
@@ -11,6 +12,8 @@
 #include "real_time/shading/shading_pass.h"
 #include "real_time/virtual_point_lights/place_lights.h"
 #include "scene/recipes/recipes.h"
+#include "shot/find_shot.h"
+#include "shot/open_shot.h"
 
 namespace luciole {
 namespace {
@@ -128,6 +131,28 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
                          testing::Combine(testing::Values("recipe:cornell?glossy=0.1", "recipe:ring?alpha=0.1",
                                                           "recipe:lights?count=5000", "recipe:gallery?detail=0.05"),
                                           testing::Values(1u, 8u), testing::Values(NearField::disc, NearField::point)));
+
+// A real scene, with textures, normal maps and masked leaves.
+TEST(Unbiased, holds_in_sponza) {
+  SearchFolders folders;
+  folders.shots = {LUCIOLE_SOURCE_DIR "/shots"};
+  if (const char* scenes = std::getenv("LUCIOLE_SCENES")) {
+    folders.scenes = {scenes};
+  } else {
+    GTEST_SKIP() << "LUCIOLE_SCENES is not set: Sponza is not bundled";
+  }
+  const Result<Shot> shot = find_shot("sponza", folders);
+  ASSERT_TRUE(shot.has_value()) << shot.error().message;
+  Result<OpenedShot> opened = open_shot(*shot, folders);
+  ASSERT_TRUE(opened.has_value()) << opened.error().message;
+  const Stage sponza{std::make_shared<const Scene>(std::move(opened->scene)), opened->camera, opened->primary};
+  for (const std::uint32_t interleave : {1u, 8u}) {
+    Settings settings = test_settings(interleave);
+    settings.exposure = 3.77f;
+    const ZTestReport report = test_frames(sponza, settings, settings);
+    EXPECT_TRUE(report.passed) << "interleave " << interleave << ": " << report.reason;
+  }
+}
 
 // Emissive triangles move their point every frame, so each frame has a reference of its own.
 TEST(Unbiased, holds_for_emissive_triangles_around_each_frames_points) {
