@@ -10,7 +10,12 @@
 namespace luciole::workshop {
 namespace {
 
-float turn(Vec2 a, Vec2 b, Vec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+// Twice the signed area of a triangle. In double: the corners of fine curves are nearly on a line.
+double turn(Vec2 a, Vec2 b, Vec2 c) {
+  const double ux = static_cast<double>(b.x) - a.x, uy = static_cast<double>(b.y) - a.y;
+  const double vx = static_cast<double>(c.x) - a.x, vy = static_cast<double>(c.y) - a.y;
+  return ux * vy - uy * vx;
+}
 
 // An ear: a convex corner whose triangle holds no other point of what is left.
 bool is_ear(const std::vector<Vec2>& p, const std::vector<std::uint32_t>& left, std::size_t k) {
@@ -23,14 +28,27 @@ bool is_ear(const std::vector<Vec2>& p, const std::vector<std::uint32_t>& left, 
   });
 }
 
+// Where rounding leaves no ear: the corner that sticks out most.
+std::size_t sharpest(const std::vector<Vec2>& p, const std::vector<std::uint32_t>& left) {
+  const std::size_t n = left.size();
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double area = turn(p[left[(k + n - 1) % n]], p[left[k]], p[left[(k + 1) % n]]);
+    if (area > most) most = area, best = k;
+  }
+  return best;
+}
+
 // Triangles of a simple counter-clockwise polygon, by cutting ears.
 std::vector<std::uint32_t> triangulate(const std::vector<Vec2>& polygon) {
   std::vector<std::uint32_t> left(polygon.size()), triangles;
   std::iota(left.begin(), left.end(), 0u);
   while (left.size() > 2) {
     std::size_t k = 0;
-    while (k + 1 < left.size() && !is_ear(polygon, left, k)) ++k;
     const std::size_t n = left.size();
+    while (k < n && !is_ear(polygon, left, k)) ++k;
+    if (k == n) k = sharpest(polygon, left);
     triangles.insert(triangles.end(), {left[(k + n - 1) % n], left[k], left[(k + 1) % n]});
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
   }

@@ -49,9 +49,9 @@ Mesh lamp(float radius, std::uint32_t facets) {
   return mesh;
 }
 
-// Stripes of full and quarter light.
+// Stripes of full and quarter light; glTF's emissive textures are sRGB.
 Texture striped_shade() {
-  return paint("striped shade", 4, Encoding::linear, [](Vec2 place) {
+  return paint("striped shade", 4, Encoding::srgb, [](Vec2 place) {
     const float light = static_cast<int>(4 * place.x) % 2 == 0 ? 1.0f : 0.25f;
     return Vec3{light, light, light};
   });

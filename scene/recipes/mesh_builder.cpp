@@ -106,6 +106,12 @@ Mesh grid_surface(const GridShape& shape, const std::function<Vec3(float u, floa
   return grid_from_points(shape, std::move(points));
 }
 
+void set_uv(Mesh& mesh, const std::vector<float>& u, const std::vector<float>& v) {
+  for (std::size_t j = 0; j < v.size(); ++j) {
+    for (std::size_t i = 0; i < u.size(); ++i) mesh.uv[0][j * u.size() + i] = {u[i], v[j]};
+  }
+}
+
 Mesh rectangle(Vec3 corner, Vec3 side_u, Vec3 side_v, std::uint32_t columns, std::uint32_t rows) {
   return grid_surface({columns, rows, false, false, {length(side_u), length(side_v)}},
                       [=](float u, float v) { return corner + side_u * u + side_v * v; });

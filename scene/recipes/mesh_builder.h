@@ -31,6 +31,9 @@ Mesh grid_surface(const GridShape& shape, const std::function<Vec3(float u, floa
 // first.
 Mesh grid_from_points(const GridShape& shape, std::vector<Vec3> points);
 
+// Texture coordinates of a grid by place instead of number: u of each column, v of each row.
+void set_uv(Mesh& mesh, const std::vector<float>& u, const std::vector<float>& v);
+
 // A flat rectangle: corner, and its two sides; the front is along cross(side_u, side_v). uv in metres.
 Mesh rectangle(Vec3 corner, Vec3 side_u, Vec3 side_v, std::uint32_t columns = 1, std::uint32_t rows = 1);
 

@@ -59,7 +59,7 @@ Scene make_ring(const Values& values) {
   add_mesh(scene, "plane", plane, rectangle({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}));
   add_mesh(scene, "ring", ring, band(detail.segments(kColumns), detail.segments(kRows)));
 
-  scene.lights.push_back(spot_light("spot", {{-2.9f, 2.1f, -1.2f}, {0, 0.1f, 0}}, {60, 60, 60}, 18, 24));
+  scene.lights.push_back(spot_light("spot", {{-3.1f, 1.55f, -1.25f}, {0, 0.1f, 0}}, {80, 80, 80}, 18, 24));
   scene.cameras.push_back(named_camera("ring", {{0.35f, 1.55f, 2.05f}, {0, 0.06f, 0.03f}}, 38));
   return scene;
 }

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "scene/mesh_finish.h"
+
 namespace luciole::workshop {
 
 std::uint32_t add_material(Scene& scene, Material material) {
@@ -35,6 +37,7 @@ Material matte_material(std::string name, Vec3 albedo) {
 void add_mesh(Scene& scene, std::string name, std::uint32_t material, Mesh mesh) {
   mesh.name = std::move(name);
   mesh.material = material;
+  drop_unused_vertices(mesh);
   scene.meshes.push_back(std::move(mesh));
 }
 

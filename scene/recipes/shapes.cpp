@@ -51,36 +51,34 @@ std::vector<Frame> frames(const Sweep& shape) {
   return result;
 }
 
-float path_length(const std::vector<Vec3>& path) {
-  float sum = 0;
-  for (std::size_t i = 1; i < path.size(); ++i) sum += length(path[i] - path[i - 1]);
-  return sum;
-}
+float distance(Vec2 a, Vec2 b) { return std::sqrt(dot(b - a, b - a)); }
+float distance(Vec3 a, Vec3 b) { return length(b - a); }
 
-float loop_length(const std::vector<Vec2>& loop) {
-  float sum = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Vec2 step = loop[(i + 1) % loop.size()] - loop[i];
-    sum += std::sqrt(dot(step, step));
-  }
-  return sum;
+// How far along a line each of its points lies [m]; a closed line comes back to its first point at the end.
+template <class Point>
+std::vector<float> way_along(const std::vector<Point>& line, bool closed) {
+  std::vector<float> way = {0};
+  for (std::size_t i = 1; i < line.size(); ++i) way.push_back(way.back() + distance(line[i - 1], line[i]));
+  if (closed) way.push_back(way.back() + distance(line.back(), line.front()));
+  return way;
 }
 
 }  // namespace
 
 Mesh lathe(const std::vector<Vec2>& profile, std::uint32_t columns) {
-  float widest = 0, long_way = 0;
-  for (std::size_t j = 0; j < profile.size(); ++j) {
-    widest = std::max(widest, profile[j].x);
-    if (j > 0) long_way += std::sqrt(dot(profile[j] - profile[j - 1], profile[j] - profile[j - 1]));
-  }
   const auto rows = static_cast<std::uint32_t>(profile.size() - 1);
   const auto turned = circle(1, columns);
-  return grid_surface({columns, rows, true, false, {kTwoPi * widest, long_way}}, [&](float u, float v) {
+  Mesh mesh = grid_surface({columns, rows, true, false, {1, 1}}, [&](float u, float v) {
     const Vec2 p = profile[static_cast<std::size_t>(std::lround(v * static_cast<float>(rows)))];
     const Vec2 c = turned[static_cast<std::size_t>(std::lround(u * static_cast<float>(columns)))];
     return Vec3{p.x * c.x, p.y, -p.x * c.y};
   });
+  float widest = 0;
+  for (const Vec2 p : profile) widest = std::max(widest, p.x);
+  std::vector<float> round;
+  for (std::uint32_t i = 0; i <= columns; ++i) round.push_back(kTwoPi * widest * static_cast<float>(i) / static_cast<float>(columns));
+  set_uv(mesh, round, way_along(profile, false));
+  return mesh;
 }
 
 Mesh sweep(const Sweep& shape) {
@@ -103,8 +101,9 @@ Mesh sweep(const Sweep& shape) {
     points.insert(points.end(), loop.begin(), loop.end());
   }
   Mesh mesh = grid_from_points({static_cast<std::uint32_t>(sides), static_cast<std::uint32_t>(rows), true,
-                                shape.closed, {loop_length(shape.section), path_length(shape.path)}},
+                                shape.closed, {1, 1}},
                                std::move(points));
+  set_uv(mesh, way_along(shape.section, true), way_along(shape.path, shape.closed));
   if (shape.closed) return mesh;
   std::vector<Vec3> first = loop_at(0);
   std::reverse(first.begin(), first.end());
@@ -127,11 +126,9 @@ Mesh moulding(const std::vector<Vec2>& plan, const std::vector<Vec2>& profile) {
       points.push_back({p.x, step.y, -p.y});
     }
   }
-  float rise = 0;
-  for (std::size_t j = 1; j < profile.size(); ++j) {
-    rise += std::sqrt(dot(profile[j] - profile[j - 1], profile[j] - profile[j - 1]));
-  }
-  return grid_from_points({columns, rows, true, false, {loop_length(plan), rise}}, std::move(points));
+  Mesh mesh = grid_from_points({columns, rows, true, false, {1, 1}}, std::move(points));
+  set_uv(mesh, way_along(plan, true), way_along(profile, false));
+  return mesh;
 }
 
 std::vector<Vec3> curve(std::uint32_t samples, bool closed, const std::function<Vec3(float along)>& position) {

@@ -38,6 +38,14 @@ Mesh resting(const Mesh& mesh, const Affine& turn) {
   return placed(turned, translate({0, -lowest, 0}));
 }
 
+// A low plinth: a step with a rounded edge.
+Mesh plinth(float width, float height) {
+  return moulding(rounded_rectangle({width, width}, 0.008f),
+                  open_line({{0.05f, 0, kCrisp}, {0.05f, 0.4f * height, 0.006f}, {0.02f, 0.5f * height},
+                             {0, 0.6f * height, 0.003f}, {0, height, 0.008f}, {0.0005f - width / 2, height, kCrisp}},
+                            16));
+}
+
 // A pedestal with a moulded foot and cap; square, `width` wide at the die.
 Mesh pedestal(float width, float height) {
   return moulding(rounded_rectangle({width, width}, 0.008f),
@@ -52,10 +60,10 @@ Mesh pedestal(float width, float height) {
 void show_foreground(Showcase& s) {
   const Detail d = s.detail();
   s.show("amphora", amphora(d), at(-3.45f, 0.25f, 3.45f, 60), metal::kBrass, 0.14f);
-  s.show("coil spring", coil_spring(d), at(-3.2f, 0, 1.75f), metal::kSteel, 0.22f);
-  s.show("bowl", resting(bowl(d), rotate_y(radians(48)) * rotate_z(radians(52))), at(-2.05f, 0, 2.75f), metal::kSilver, 0.08f);
-  s.show("wedding ring", finger_ring(d), at(-0.65f, 0, 2.95f), metal::kGold, 0.06f);
-  s.show("fallen pawn", resting(chess_pawn(d), rotate_y(radians(150)) * rotate_z(radians(-80))), at(0.30f, 0, 3.75f),
+  s.show("coil spring", coil_spring(d), at(-3.2f, 0, 1.45f), metal::kSteel, 0.22f);
+  s.show("bowl", resting(bowl(d), rotate_y(radians(48)) * rotate_z(radians(42))), at(-0.10f, 0, 2.35f), metal::kSilver, 0.12f);
+  s.show("wedding ring", finger_ring(d), at(-1.70f, 0, 2.62f), metal::kGold, 0.08f);
+  s.show("fallen pawn", resting(chess_pawn(d), rotate_y(radians(150)) * rotate_z(radians(-80))), at(0.42f, 0, 3.85f),
          metal::kBronze, 0.135f);
 }
 
@@ -64,16 +72,16 @@ constexpr float kTableX = 1.95f, kTableZ = 3.15f, kTableTop = 0.805f;
 void show_table(Showcase& s) {
   const Detail d = s.detail();
   const Affine table = at(kTableX, 0, kTableZ);
-  s.show("gold cloth", table_cloth(0.66f, 0.80f, d), table, metal::kGold, 0.45f);
-  s.show("crown", crown(d), table * at(0.30f, kTableTop + 0.105f, -0.14f, 10), metal::kGold, 0.095f);
-  s.show("kettle", kettle(d), table * at(-0.28f, kTableTop, -0.22f, 215), metal::kCopper, 0.11f);
-  s.show("tall goblet", goblet(d), table * at(-0.26f, kTableTop, 0.30f), metal::kSilver, 0.07f);
-  s.show("goblet", goblet(d), table * at(0.10f, kTableTop, 0.42f) * scale({0.86f, 0.86f, 0.86f}), metal::kGold, 0.15f);
+  s.show("gold cloth", table_cloth(0.80f, 0.80f, d), table, metal::kNickel, 0.42f);
+  s.show("crown", crown(d), table * at(0.34f, kTableTop + 0.105f, -0.16f, 10), metal::kGold, 0.11f);
+  s.show("kettle", kettle(d), table * at(-0.36f, kTableTop, -0.22f, 195), metal::kCopper, 0.13f);
+  s.show("tall goblet", goblet(d), table * at(0.02f, kTableTop, 0.10f), metal::kSilver, 0.09f);
+  s.show("goblet", resting(goblet(d), rotate_y(radians(-35)) * rotate_z(radians(-96))), table * at(-0.14f, kTableTop, 0.56f), metal::kGold, 0.15f);
 }
 
 void show_chess(Showcase& s) {
   const Detail d = s.detail();
-  s.show("chess king", chess_king(d), at(0.05f, 0, -2.05f, 15), metal::kGold, 0.12f);
+  s.show("chess king", chess_king(d), at(0.05f, 0, -2.05f, 15), metal::kGold, 0.115f);
   s.show("chess queen", chess_queen(d), at(-0.85f, 0, -2.35f), metal::kPlatinum, 0.105f);
   s.show("chess bishop", chess_bishop(d), at(-0.45f, 0, -1.40f), metal::kNickel, 0.19f);
   s.show("chess rook", chess_rook(d), at(-1.75f, 0, -1.95f), metal::kBronze, 0.21f);
@@ -106,10 +114,10 @@ void show_middle(Showcase& s) {
   s.show("small gear", gear(14, 0.27f, 0.10f, d), translate({-2.97f, 0.40f, -0.18f}) * rotate_y(radians(48)),
          metal::kBronze, 0.32f);
   s.show("trumpet", trumpet(d), translate({0.75f, 0.735f, -0.85f}) * rotate_y(radians(200)) * rotate_x(radians(12)),
-         metal::kGold, 0.075f);
-  s.show("torus knot", torus_knot(d), at(2.75f, 0.93f, -2.05f, 25), metal::kCopper, 0.085f);
-  s.show("mirror dish", resting(mirror_dish(d), rotate_y(radians(22)) * rotate_z(radians(66))), at(3.98f, 0, -0.80f),
-         metal::kSilver, 0.05f);
+         metal::kGold, 0.07f);
+  s.show("torus knot", torus_knot(d), at(2.75f, 0.93f, -2.05f, 25), metal::kCopper, 0.10f);
+  s.show("mirror dish", mirror_dish(d), translate({4.40f, 1.25f, -0.95f}) * rotate_y(radians(25)) * rotate_z(radians(100)),
+         metal::kSilver, 0.065f);
 }
 
 void show_far_end(Showcase& s) {
@@ -117,13 +125,13 @@ void show_far_end(Showcase& s) {
   s.show("armillary sphere", armillary_sphere(d), at(-2.75f, 0.55f, -6.7f, 20), metal::kBrass, 0.125f);
   s.show("candlestick", candlestick(d), at(-1.95f, 0, -5.9f) * scale({1.7f, 1.7f, 1.7f}), metal::kBrass, 0.17f);
   s.show("bell", bell(d), at(1.7f, 0.40f, -6.3f), metal::kBronze, 0.30f);
-  s.show("spiral staircase", spiral_staircase(3.3f, d), at(3.05f, 0, -8.1f, -60), metal::kSteel, 0.38f);
+  s.show("spiral staircase", spiral_staircase(3.3f, d), at(3.05f, 0, -8.1f, -36), metal::kSteel, 0.38f);
   s.show("letters", letters("LUCIOLE", 0.72f, d), at(-0.6f, 3.72f, 0.12f - kHalfLength), metal::kGold, 0.20f);
 }
 
 Mesh round_table(Detail detail) {
   return lathe(open_line({{0.32f, 0, kCrisp}, {0.30f, 0.05f}, {0.06f, 0.12f}, {0.08f, 0.4f}, {0.06f, 0.7f, kCrisp},
-                          {0.64f, 0.74f, kCrisp}, {0.64f, 0.79f, 0.02f}, {0, 0.795f, kCrisp}},
+                          {0.78f, 0.74f, kCrisp}, {0.78f, 0.79f, 0.02f}, {0, 0.795f, kCrisp}},
                          detail.segments(30)),
                detail.segments(48));
 }
@@ -140,7 +148,7 @@ Mesh pillow(Detail detail) {
 
 void add_furniture(Scene& scene, const HallMaterials& materials, Detail detail) {
   Mesh stone, wood, cushion;
-  append(stone, pedestal(0.62f, 0.25f), at(-3.45f, 0, 3.45f));
+  append(stone, plinth(0.66f, 0.25f), at(-3.45f, 0, 3.45f));
   append(stone, pedestal(0.52f, 0.90f), at(-3.05f, 0, -2.75f, -20));
   append(stone, pedestal(0.56f, 0.93f), at(2.75f, 0, -2.05f, 25));
   append(stone, pedestal(0.60f, 0.55f), at(-2.75f, 0, -6.7f, 20));
@@ -148,7 +156,7 @@ void add_furniture(Scene& scene, const HallMaterials& materials, Detail detail) 
   append(wood, pedestal(0.62f, 0.52f), at(0.72f, 0, -0.85f, 20));
   append(wood, pedestal(0.95f, 0.40f), at(1.7f, 0, -6.3f));
   append(wood, round_table(detail), at(kTableX, 0, kTableZ));
-  append(cushion, pillow(detail), at(kTableX + 0.30f, kTableTop, kTableZ - 0.14f, 10));
+  append(cushion, pillow(detail), at(kTableX + 0.34f, kTableTop, kTableZ - 0.16f, 10));
   append(cushion, rounded_box({0.5f, 0.18f, 0.3f}, 0.06f), at(0.72f, 0.60f, -0.85f, 20));
   scale_uv(stone, kStoneTile);
   scale_uv(wood, kOakTile);

@@ -14,12 +14,12 @@ void add_lights(Scene& scene) {
   const float elevation = radians(24), ahead = radians(8);
   const Vec3 towards{std::cos(elevation) * std::cos(ahead), -std::sin(elevation),
                      std::cos(elevation) * std::sin(ahead)};
-  scene.lights.push_back(sun_light("evening sun", towards, {40, 33, 23}));
+  scene.lights.push_back(sun_light("evening sun", towards, {46, 40, 31}));
   scene.lights.push_back(
       spot_light("spot on the table", {{-0.4f, 5.9f, 5.4f}, {1.95f, 0.9f, 3.1f}}, {150, 142, 125}, 9, 15));
   // From where its mirror image in the letters is seen by the camera.
   scene.lights.push_back(
-      spot_light("spot on the letters", {{-1.5f, 5.2f, -3.6f}, {-0.6f, 3.9f, -9.5f}}, {420, 390, 320}, 20, 32));
+      spot_light("spot on the letters", {{-1.5f, 5.2f, -3.6f}, {-0.6f, 3.9f, -9.5f}}, {270, 252, 212}, 22, 40));
   scene.environment.radiance = {3.0f, 3.6f, 4.6f};
 }
 

@@ -57,6 +57,8 @@ Mesh carpet(Detail detail) {
 void add_joinery(Scene& scene, const HallMaterials& materials, Detail detail) {
   Mesh wood, stone;
   add_door(wood, stone, translate({-0.6f, 0, -kHalfLength}));
+  // At the head of the stairs.
+  add_door(wood, stone, translate({2.56f, 3.3f, -kHalfLength}) * scale({0.69f, 0.69f, 0.69f}));
   add_door(wood, stone, translate({0, 0, kHalfLength}) * rotate_y(kPi));
   add_wall_lines(stone);
   Mesh rug = placed(carpet(detail), translate({-0.9f, 0, -5.2f}));

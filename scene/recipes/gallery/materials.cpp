@@ -47,10 +47,10 @@ Vec3 marble(Vec2 place) {
   const float fine = std::pow(std::max(0.0f, 1 - std::abs(tiling_fractal(at, 9, 5, 37)) * 12), 2.0f);
   const float shade = 0.92f + 0.16f * unit_hash(9, cell.row * 64 + cell.column, 2);
   if ((cell.column + cell.row) % 2 == 0) {
-    const Vec3 cream = blend({0.60f, 0.54f, 0.44f}, {0.69f, 0.64f, 0.56f}, 0.5f + cloud);
+    const Vec3 cream = blend({0.64f, 0.59f, 0.52f}, {0.75f, 0.71f, 0.65f}, 0.5f + cloud);
     return blend(cream, {0.36f, 0.29f, 0.21f}, 0.55f * vein + 0.25f * fine) * shade;
   }
-  const Vec3 verde = blend({0.105f, 0.135f, 0.115f}, {0.20f, 0.235f, 0.20f}, 0.5f + 1.3f * cloud);
+  const Vec3 verde = blend({0.15f, 0.17f, 0.165f}, {0.27f, 0.295f, 0.285f}, 0.5f + 1.3f * cloud);
   return blend(verde, {0.50f, 0.52f, 0.46f}, 0.7f * vein + 0.3f * fine) * shade;
 }
 
@@ -63,7 +63,7 @@ float marble_height(Vec2 place) {
 
 Vec3 plaster(Vec2 place) {
   const float stain = tiling_fractal(place, 2, 5, 41), grain = tiling_noise(place, 160, 43);
-  return blend({0.60f, 0.53f, 0.43f}, {0.71f, 0.66f, 0.57f}, 0.5f + 1.2f * stain) * (1 + 0.02f * grain);
+  return blend({0.68f, 0.64f, 0.57f}, {0.80f, 0.77f, 0.71f}, 0.5f + 1.2f * stain) * (1 + 0.02f * grain);
 }
 
 float plaster_height(Vec2 place) {
@@ -73,7 +73,7 @@ float plaster_height(Vec2 place) {
 Vec3 limestone(Vec2 place) {
   const float cloud = tiling_fractal(place, 4, 5, 59);
   const float pore = smooth_step(0.38f, 0.6f, tiling_noise(place, 96, 61));
-  return blend({0.50f, 0.45f, 0.37f}, {0.64f, 0.60f, 0.52f}, 0.5f + 1.3f * cloud) * (1 - 0.25f * pore);
+  return blend({0.56f, 0.52f, 0.45f}, {0.71f, 0.68f, 0.62f}, 0.5f + 1.3f * cloud) * (1 - 0.25f * pore);
 }
 
 float limestone_height(Vec2 place) {

@@ -8,12 +8,12 @@
 namespace luciole::workshop::gallery {
 
 // Turned on the lathe (turned_objects.cpp, chess_pieces.cpp).
-Mesh finger_ring(Detail detail);  // a wedding band, 0.9 m wide
+Mesh finger_ring(Detail detail);  // a wedding band, 1.1 m wide
 Mesh bowl(Detail detail);
 Mesh amphora(Detail detail);
 Mesh goblet(Detail detail);
 Mesh bell(Detail detail);
-Mesh mirror_dish(Detail detail);  // a shallow concave mirror facing +y
+Mesh mirror_dish(Detail detail);  // a concave mirror facing +y that focuses 1.6 m in front of it
 Mesh candlestick(Detail detail);
 Mesh kettle(Detail detail);
 Mesh chess_king(Detail detail);
@@ -40,7 +40,8 @@ Mesh letters(const std::string& word, float height, Detail detail);  // along x,
 // A round cloth of metal thread over a round table of this radius and height (cloth.cpp).
 Mesh table_cloth(float table_radius, float table_height, Detail detail);
 
-// A spiral staircase winding up round a post, to `height` (staircase.cpp).
+// A spiral staircase winding up round a post, to a landing at `height` that lies along -z if the whole is turned by -36
+// degrees (staircase.cpp).
 Mesh spiral_staircase(float height, Detail detail);
 
 }  // namespace luciole::workshop::gallery

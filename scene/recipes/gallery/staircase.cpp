@@ -29,6 +29,18 @@ Mesh baluster(float height, Detail detail) {
                detail.segments(14, 7));
 }
 
+// Where the steps end: a platform and its railing, along +x, on the side of -z.
+Mesh landing(float rail, Detail detail) {
+  constexpr float kLength = 1.5f;
+  Mesh mesh = placed(rounded_box({kLength, 0.05f, kOuter}, 0.008f), translate({kLength / 2, -0.025f, -kOuter / 2}));
+  const Mesh one_baluster = baluster(rail, detail);
+  for (int k = 0; k < 10; ++k) {
+    append(mesh, one_baluster, translate({0.05f + 0.15f * static_cast<float>(k), 0, 0.04f - kOuter}));
+  }
+  append(mesh, tube({{0, rail, 0.04f - kOuter}, {kLength, rail, 0.04f - kOuter}}, 0.026f, detail.segments(24)));
+  return mesh;
+}
+
 }  // namespace
 
 Mesh spiral_staircase(float height, Detail detail) {
@@ -57,6 +69,7 @@ Mesh spiral_staircase(float height, Detail detail) {
   };
   append(mesh, tube(helix(0.94f, kRail), 0.026f, detail.segments(24)));
   append(mesh, sweep({helix(0.99f, -0.10f), false, rounded_rectangle({0.02f, 0.22f}, 0.006f), nullptr, Vec3{0, 1, 0}}));
+  append(mesh, landing(kRail, detail), translate({0, height, 0}) * rotate_y(step_turn * kSteps));
   return mesh;
 }
 

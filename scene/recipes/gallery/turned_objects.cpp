@@ -11,10 +11,10 @@ namespace luciole::workshop::gallery {
 Mesh finger_ring(Detail detail) {
   // Flat inside, gently domed outside: a closed profile, so the section is swept round a circle.
   const std::vector<Vec2> section = closed_line(
-      {{-0.022f, -0.15f, 0.012f}, {0.020f, -0.145f, 0.02f}, {0.036f, 0}, {0.020f, 0.145f, 0.02f}, {-0.022f, 0.15f, 0.012f}},
+      {{-0.022f, -0.11f, 0.012f}, {0.020f, -0.105f, 0.02f}, {0.036f, 0}, {0.020f, 0.105f, 0.02f}, {-0.022f, 0.11f, 0.012f}},
       detail.segments(72, 12));
   const auto path = curve(detail.segments(320, 24), true, [](float along) {
-    return Vec3{0.45f * std::cos(kTwoPi * along), 0.151f, 0.45f * std::sin(kTwoPi * along)};  // clockwise: x is outwards
+    return Vec3{0.55f * std::cos(kTwoPi * along), 0.111f, 0.55f * std::sin(kTwoPi * along)};  // clockwise: x is outwards
   });
   return sweep({path, true, section, nullptr, Vec3{0, 1, 0}});
 }
@@ -128,18 +128,19 @@ Mesh bell(Detail detail) {
 }
 
 Mesh mirror_dish(Detail detail) {
-  // A spherical cap of 0.62 m radius and 0.17 m depth, with a rolled rim and a back.
+  // A spherical cap: 0.62 m wide at the rim and 0.06 m deep has a radius of 3.2 m.
   return lathe(open_line({{0, 0, kCrisp},
-                          {0.2f, 0.012f},
-                          {0.42f, 0.07f},
-                          {0.63f, 0.175f, 0.004f},
-                          {0.66f, 0.19f},
-                          {0.655f, 0.215f},
-                          {0.62f, 0.205f, 0.004f},
-                          {0.42f, 0.106f},
-                          {0.2f, 0.040f},
+                          {0.62f, 0.012f, 0.01f},
+                          {0.70f, 0.06f},
+                          {0.69f, 0.115f},
+                          {0.64f, 0.105f, 0.006f},
+                          {0.62f, 0.090f, 0.003f},
+                          {0.50f, 0.069f},
+                          {0.35f, 0.0491f},
+                          {0.20f, 0.0362f},
+                          {0.10f, 0.0316f},
                           {0, 0.03f, kCrisp}},
-                         detail.segments(110, 24)),
+                         detail.segments(120, 24)),
                detail.segments(200, 20));
 }
 
