@@ -15,6 +15,7 @@
 #include "real_time/many_lights/many_lights.h"
 #include "real_time/shading/prediction.h"
 #include "real_time/shading/shading_pass.h"
+#include "real_time/sky_light/sky_light.h"
 #include "real_time/virtual_point_lights/place_lights.h"
 
 namespace luciole {
@@ -110,13 +111,18 @@ const View& Renderer::State::view(std::uint64_t frame_index) {
   const Vec2 sub_pixel = settings.jitter ? jittered_sub_pixel(settings.seed, frame_index) : Vec2(0.5f, 0.5f);
   render_geometry_buffer({rays, camera, settings.width, settings.height, sub_pixel}, cached->geometry);
   timer.end("geometry_buffer");
+  PrimaryLights lights = primaries;
+  const PrimaryLights sky = sample_sky(rays.scene().environment,
+                                       {.seed = settings.vpl_seed, .frame = frame_index, .jitter = settings.jitter});
+  lights.insert(lights.end(), sky.begin(), sky.end());
+  timer.end("sky_light");
   std::vector<SurfaceTexel> texels;
-  ReflectiveShadowMaps(primaries, rays.bounds(), settings.vpls)
+  ReflectiveShadowMaps(lights, rays.bounds(), settings.vpls)
       .render(rays, {settings.vpl_seed, settings.jitter, frame_index}, texels);
   timer.end("reflective_shadow_map");
   place_virtual_point_lights(texels, cached->vpls);
   timer.end("virtual_point_lights");
-  cached->direct = direct_light(rays, cached->geometry, primaries, settings.isa);
+  cached->direct = direct_light(rays, cached->geometry, lights, settings.isa);
   timer.end("direct_light");
   cached->passes_ms = times.passes_ms;
   return *cached;

@@ -12,6 +12,7 @@ luciole_room(real_time_front
     reflective_shadow_map/light_map.cpp
     reflective_shadow_map/primary_light.cpp
     reflective_shadow_map/reflective_shadow_map.cpp
+    sky_light/sky_light.cpp
     virtual_point_lights/virtual_point_lights.cpp
   LINK luciole_ray_tracing luciole_scene luciole_settings luciole_base)
 luciole_isa_sources(luciole_real_time_front direct_light/direct_light_kernel.cpp)
@@ -22,3 +23,4 @@ luciole_test(virtual_point_lights_test SOURCES virtual_point_lights/virtual_poin
              LINK luciole_real_time_front)
 luciole_test(many_lights_test SOURCES many_lights/many_lights_test.cpp LINK luciole_real_time_front)
 luciole_test(direct_light_test SOURCES direct_light/direct_light_test.cpp LINK luciole_real_time_front)
+luciole_test(sky_light_test SOURCES sky_light/sky_light_test.cpp LINK luciole_real_time_front)

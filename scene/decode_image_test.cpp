@@ -41,13 +41,16 @@ Bytes png_of(png_uint_32 format, const void* pixels, const void* colour_map = nu
 
 TEST(DecodeImage, reads_grey_palette_and_16_bit_png_as_stored) {
   const std::uint8_t grey[] = {10, 200};
-  EXPECT_EQ(decode(png_of(PNG_FORMAT_GRAY, grey)).rgba, (Bytes{10, 10, 10, 255, 200, 200, 200, 255}));
+  EXPECT_EQ(decode(png_of(PNG_FORMAT_GRAY, grey)).rgba,
+            (AlignedVector<std::uint8_t>{10, 10, 10, 255, 200, 200, 200, 255}));
   const std::uint8_t index[] = {1, 0}, map[] = {1, 2, 3, 4, 50, 60, 70, 255};
-  EXPECT_EQ(decode(png_of(PNG_FORMAT_RGBA_COLORMAP, index, map)).rgba, (Bytes{50, 60, 70, 255, 1, 2, 3, 4}));
+  EXPECT_EQ(decode(png_of(PNG_FORMAT_RGBA_COLORMAP, index, map)).rgba,
+            (AlignedVector<std::uint8_t>{50, 60, 70, 255, 1, 2, 3, 4}));
   // Written with a gamma of 1, which the format tells us to ignore: 0x8080 of 0xffff is 128 of 255. With the gamma it
   // would be 188.
   const std::uint16_t deep[] = {0x8080, 0xffff};
-  EXPECT_EQ(decode(png_of(PNG_FORMAT_LINEAR_Y, deep)).rgba, (Bytes{128, 128, 128, 255, 255, 255, 255, 255}));
+  EXPECT_EQ(decode(png_of(PNG_FORMAT_LINEAR_Y, deep)).rgba,
+            (AlignedVector<std::uint8_t>{128, 128, 128, 255, 255, 255, 255, 255}));
 }
 
 TEST(DecodeImage, refuses_png_files_that_end_early) {

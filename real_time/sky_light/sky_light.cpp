@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "real_time/sky_light/sky_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "equations/cpp/float.h"
+#include "real_time/fold_seed.h"
+
+namespace luciole {
+namespace {
+
+constexpr std::uint32_t kDimensionSky = 16;
+constexpr double kPi = std::numbers::pi;
+
+double luminance_of(Vec3 rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z; }
+
+// Solid angle of one texel of a row [sr]: the band between two polar angles, cut into `width` parts.
+double texel_solid_angle(std::uint32_t row, std::uint32_t width, std::uint32_t height) {
+  const double top = kPi * row / height, bottom = kPi * (row + 1) / height;
+  return 2 * kPi / width * (std::cos(top) - std::cos(bottom));
+}
+
+// Running sums of luminance times solid angle over the texels, row by row.
+std::vector<double> cumulated(const Environment& environment) {
+  std::vector<double> sums(environment.pixels.size());
+  double sum = 0;
+  for (std::uint32_t row = 0; row < environment.height; ++row) {
+    const double solid_angle = texel_solid_angle(row, environment.width, environment.height);
+    for (std::uint32_t column = 0; column < environment.width; ++column) {
+      const std::size_t i = std::size_t(row) * environment.width + column;
+      sum += std::max(luminance_of(environment.radiance * environment.pixels[i]), 0.0) * solid_angle;
+      sums[i] = sum;
+    }
+  }
+  return sums;
+}
+
+// A direction of a texel, uniform in its solid angle; the counterpart of sky_radiance's mapping.
+Vec3 direction_in(const Environment& environment, std::size_t texel, double across, double down) {
+  const auto row = static_cast<std::uint32_t>(texel / environment.width);
+  const auto column = static_cast<std::uint32_t>(texel % environment.width);
+  const double azimuth = 2 * kPi * ((column + across) / environment.width - 0.5);
+  const double cos_top = std::cos(kPi * row / environment.height);
+  const double cos_bottom = std::cos(kPi * (row + 1) / environment.height);
+  const double y = cos_top + (cos_bottom - cos_top) * down;
+  const double level = std::sqrt(std::max(1 - y * y, 0.0));
+  return {static_cast<float>(level * std::sin(azimuth)), static_cast<float>(y),
+          static_cast<float>(-level * std::cos(azimuth))};
+}
+
+struct UnitNumbers {
+  double a, b, c;
+};
+
+// Three numbers in [0,1) for one stratum; the middle without jitter and seed.
+UnitNumbers numbers_of(const SkySampling& sampling, std::uint32_t stratum) {
+  if (sampling.seed == 0 && !sampling.jitter) return {0.5, 0.5, 0.5};
+  const std::uint32_t frame = sampling.jitter ? folded(sampling.frame) : 0;
+  const auto unit = [](std::uint32_t bits) { return bits * 0x1p-32; };
+  const f32::RandomWords first = f32::random_words(folded(sampling.seed), frame, stratum, kDimensionSky);
+  const f32::RandomWords more = f32::random_words(folded(sampling.seed), frame, stratum, kDimensionSky + 1);
+  return {unit(first.first), unit(first.second), unit(more.first)};
+}
+
+}  // namespace
+
+PrimaryLights sample_sky(const Environment& environment, const SkySampling& sampling) {
+  if (environment.pixels.empty() || sampling.lights == 0) return {};
+  const std::vector<double> sums = cumulated(environment);
+  const double total = sums.back();
+  if (!(total > 0)) return {};
+  PrimaryLights lights;
+  for (std::uint32_t k = 0; k < sampling.lights; ++k) {
+    const UnitNumbers u = numbers_of(sampling, k);
+    const double wanted = total * (k + u.a) / sampling.lights;
+    const auto found = std::upper_bound(sums.begin(), sums.end() - 1, wanted);
+    const auto texel = static_cast<std::size_t>(found - sums.begin());
+    const Vec3 radiance = environment.radiance * environment.pixels[texel];
+    PunctualLight light;
+    light.kind = PunctualLight::Kind::directional;
+    light.name = "sky";
+    light.direction = -direction_in(environment, texel, u.b, u.c);
+    // L / pdf / lights with pdf = luminance / total [1/sr].
+    light.intensity = radiance * static_cast<float>(total / (luminance_of(radiance) * sampling.lights));
+    lights.push_back(light);
+  }
+  return lights;
+}
+
+}  // namespace luciole
