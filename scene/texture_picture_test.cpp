@@ -70,7 +70,7 @@ TEST(TexturePicture, filters_are_what_the_sampler_says) {
 TEST(TexturePicture, wrap_modes_differ_beyond_the_border) {
   Texture texture;
   MipImage image;
-  image.levels.push_back({2, 1, kBlackWhite});
+  image.levels.push_back({2, 1, {kBlackWhite.begin(), kBlackWhite.end()}});
   texture.image = std::make_shared<MipImage>(image);
   texture.magnify_linear = false;
   // u in halves of the image: -0.75 -0.25 | 0.25 0.75 | 1.25 1.75 2.25
@@ -93,7 +93,7 @@ TEST(TexturePicture, linear_filters_wrap_over_the_border) {
 TEST(TexturePicture, survives_any_coordinate) {
   Texture texture;
   MipImage image;
-  image.levels.push_back({2, 1, kBlackWhite});
+  image.levels.push_back({2, 1, {kBlackWhite.begin(), kBlackWhite.end()}});
   texture.image = std::make_shared<MipImage>(image);
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
     texture.wrap_u = texture.wrap_v = wrap;
