@@ -39,8 +39,8 @@ Scene make(const std::string& name, const Parameters& parameters) {
 
 class Hash {
  public:
-  template <class T>
-  void add(const std::vector<T>& values) {
+  template <class T, class Allocator>
+  void add(const std::vector<T, Allocator>& values) {
     add(values.data(), values.size() * sizeof(T));
   }
   void add(const void* data, std::size_t size) {
