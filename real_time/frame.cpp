@@ -108,7 +108,7 @@ const View& Renderer::State::view(std::uint64_t frame_index) {
   cached.emplace();
   FrameStatistics times;
   PassTimer timer(times);
-  const Vec2 sub_pixel = settings.jitter ? jittered_sub_pixel(settings.seed, frame_index) : Vec2(0.5f, 0.5f);
+  const Vec2 sub_pixel = settings.jitter ? jittered_sub_pixel(settings.vpl_seed, frame_index) : Vec2(0.5f, 0.5f);
   render_geometry_buffer({rays, camera, settings.width, settings.height, sub_pixel}, cached->geometry);
   timer.end("geometry_buffer");
   PrimaryLights lights = primaries;
