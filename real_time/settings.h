@@ -49,7 +49,6 @@ struct Settings {
   bool stratified_ranges = false;  // random numbers stratified over the lights: steadier; independent ones else
   bool direct_shadows = false;     // one shadow ray per accepted punctual or emissive light
   bool jitter = false;             // camera samples and VPLs move per frame
-  bool count_lights = false;       // statistics of listed and false lights per pixel (a little slower)
   std::uint64_t seed = 1;          // moves ranges and interleaving only
   std::uint64_t vpl_seed = 0;      // 0: VPLs at texel centres; else jittered within the texel
   Isa isa = Isa::automatic;

@@ -89,9 +89,6 @@ Result<RenderPlan> make_plan(const RenderOptions& options) {
   for (const auto read : {read_settings, read_outputs, read_layers}) {
     if (Status status = read(options, plan); !status) return status.error();
   }
-  const auto counts = [](const std::string& layer) { return layer == "lights_listed" || layer == "lights_false"; };
-  plan.settings.count_lights =
-      !options.statistics.empty() || std::any_of(plan.layers.begin(), plan.layers.end(), counts);
   return plan;
 }
 
