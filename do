@@ -10,7 +10,7 @@ usage() {
 ./do build     install what is missing, build the program: build/luciole
 ./do test      install what is missing, build, run all tests
 ./do check     sanitizers, fuzzing, source format (long; what a release must pass)
-./do bench     build and run the benchmarks
+./do bench     build and run the benchmarks, all or those named: remakes docs/results
 ./do format    format all C++ sources
 TEXT
 }
@@ -61,7 +61,8 @@ demo() {
   build_program
   cmake --build build --target luciole
   mkdir -p out
-  build/luciole render gallery -o out/demo.png -o out/demo.exr --statistics out/demo.json
+  # A million lights for the caustics, eight jittered frames against the stairs at edges: half a minute on two cores.
+  build/luciole render gallery --vpls 1048576 --accumulate 8 --jitter -o out/demo.png -o out/demo.exr --statistics out/demo.json
   echo "the picture:   $PWD/out/demo.png"
   echo "linear, EXR:   $PWD/out/demo.exr"
   echo "what it cost:  $PWD/out/demo.json"
@@ -95,17 +96,11 @@ check() {
   tests/check.sh
 }
 
-# Every benchmarks/NAME_benchmark.cpp is a target of its name and runs without arguments.
+# Remakes docs/results, or only the pages that are named.
 bench() {
-  need run test
-  build_program ON
-  local source name
-  for source in benchmarks/*_benchmark.cpp; do
-    name=$(basename "$source" .cpp)
-    cmake --build build --target "$name"
-    echo "== $name"
-    "$(find build -name "$name" -type f -perm -u+x -print -quit)"
-  done
+  need run test bench
+  build_program
+  benchmarks/run.sh "$@"
 }
 
 format() {
@@ -118,7 +113,7 @@ case "${1:-}" in
   build) build ;;
   test) test_all ;;
   check) check ;;
-  bench) bench ;;
+  bench) bench "${@:2}" ;;
   format) format ;;
   '' | help | -h | --help) usage ;;
   *)
