@@ -3,52 +3,19 @@
 // floors: an exact ellipsoid-tile test, and an oracle that lists just what some pixel of the tile half accepts.
 //   culling_benchmark [shot ...]     prints Markdown; no machine is in the figures
 #include <cstdio>
-#include <cstdlib>
 #include <numeric>
 #include <string>
 #include <vector>
 
-#include "real_time/geometry_buffer/geometry_buffer_pass.h"
+#include "benchmarks/stage.h"
 #include "real_time/kernels.h"
 #include "real_time/light_culling/tile.h"
 #include "real_time/light_range/light_range.h"
-#include "real_time/settings_text.h"
 #include "real_time/shading/shade_kernel.h"
 #include "real_time/shading/shading_pass.h"
-#include "real_time/virtual_point_lights/place_lights.h"
-#include "shot/find_shot.h"
-#include "shot/open_shot.h"
 
 namespace luciole {
 namespace {
-
-struct Stage {
-  std::string name;
-  Settings settings;
-  GeometryBuffer geometry;
-  VirtualPointLights lights;
-  ManyLights none;
-};
-
-bool prepare(const std::string& name, const SearchFolders& folders, Stage& stage) {
-  const Result<Shot> shot = find_shot(name, folders);
-  Result<OpenedShot> opened = shot ? open_shot(*shot, folders) : Result<OpenedShot>(shot.error());
-  if (!opened) {
-    std::fprintf(stderr, "%s\n", opened.error().message.c_str());
-    return false;
-  }
-  stage.name = name;
-  stage.settings = *settings_from(shot->settings, {{"size", "1920x1080"}});
-  stage.settings.isa = *choose_isa(Isa::automatic);
-  const PrimaryLights primaries = opened->primary.empty() ? opened->scene.lights : opened->primary;
-  const Camera camera = opened->camera;
-  const RayScene rays = std::move(*RayScene::create(std::make_shared<const Scene>(std::move(opened->scene))));
-  render_geometry_buffer({rays, camera, stage.settings.width, stage.settings.height}, stage.geometry);
-  std::vector<SurfaceTexel> texels;
-  ReflectiveShadowMaps(primaries, rays.bounds(), stage.settings.vpls).render(rays, {}, texels);
-  place_virtual_point_lights(texels, stage.lights);
-  return true;
-}
 
 struct Lists {
   double listed = 0, false_positives = 0, accepted = 0, in_groups = 0;  // glossy lights per pixel
@@ -60,12 +27,12 @@ struct Reached {
   ReachingLights<ManyEmitter> many;
 };
 
-Reached reach(const Stage& stage, const Settings& settings) {
+Reached reach(const PreparedStage& stage, const Settings& settings) {
   const RangeParameters range = range_parameters(settings, stage.geometry.camera, {settings.seed, 0}, -1.0f);
   return {{}, reach_glossy_lobes(stage.lights, range, settings.interleave, settings.isa), {}};
 }
 
-Lists measure(const Stage& stage, BoundingVolume bounds, TileTest test) {
+Lists measure(const PreparedStage& stage, BoundingVolume bounds, TileTest test) {
   Settings settings = stage.settings;
   settings.bounds = bounds, settings.tile_test = test;
   const Reached lights = reach(stage, settings);
@@ -80,7 +47,7 @@ Lists measure(const Stage& stage, BoundingVolume bounds, TileTest test) {
 }
 
 // What some pixel accepts, per tile half and per group.
-Lists oracle(const Stage& stage) {
+Lists oracle(const PreparedStage& stage) {
   const Settings& settings = stage.settings;
   const Reached lights = reach(stage, settings);
   const std::uint32_t n = settings.interleave, side = kTileSide * n;
@@ -123,7 +90,7 @@ void row(const char* bounds, const char* test, const Lists& lists, double worst)
               lists.false_positives / worst, lists.in_groups);
 }
 
-void report(const Stage& stage) {
+void report(const PreparedStage& stage) {
   std::printf("\n## %s\n\n", stage.name.c_str());
   const Lists at_light = measure(stage, BoundingVolume::sphere_at_light, TileTest::paper);
   std::printf("%zu virtual point lights, %.2f glossy ones accepted per pixel.\n\n", stage.lights.size(),
@@ -154,20 +121,13 @@ int main(int argc, char** argv) {
         "recipe:ring?alpha=0.4", "recipe:ring?alpha=0.2", "recipe:ring?alpha=0.1", "recipe:ring?alpha=0.05", "gallery",
         "gallery-glossy"};
   }
-  SearchFolders folders;
-  folders.shots = {LUCIOLE_SOURCE_DIR "/shots"};
-  if (const char* scenes = std::getenv("LUCIOLE_SCENES")) {
-    folders.scenes = {scenes};
-    if (argc == 1)
-      for (const char* more : {"sponza", "sponza-glossy", "sibenik", "sibenik-glossy"}) names.emplace_back(more);
+  if (argc == 1 && has_scenes()) {
+    for (const char* more : {"sponza", "sponza-glossy", "sibenik", "sibenik-glossy"}) names.emplace_back(more);
   }
+  print_page_head("Culling efficiency", "benchmarks/run.sh culling");
   std::printf(
-      "# Culling efficiency\n\nGlossy lights per pixel at 1920x1080, 8x8 interleaved, frame 0. Remake: "
-      "`culling_benchmark`.\n");
-  for (const std::string& name : names) {
-    Stage stage;
-    if (!prepare(name, folders, stage)) return 1;
-    report(stage);
-  }
+      "\nGlossy lights per pixel at 1920x1080, 8x8 interleaved, frame 0. "
+      "No machine is in these figures.\n");
+  for (const std::string& name : names) report(prepare_stage(name, {{"size", "1920x1080"}}));
   return 0;
 }

@@ -12,9 +12,6 @@ target_compile_options(luciole_real_time_filtering PRIVATE -ffp-contract=fast)
 add_library(luciole_synthetic_room STATIC EXCLUDE_FROM_ALL ${filtering}/synthetic_room.cpp)
 target_link_libraries(luciole_synthetic_room PUBLIC luciole_flags)
 
-add_executable(filter_benchmark EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/benchmarks/filter_benchmark.cpp)
-target_link_libraries(filter_benchmark PRIVATE luciole_real_time_filtering luciole_synthetic_room luciole_settings)
-
 luciole_test(filtering_test
   SOURCES ${filtering}/bilateral_filter_test.cpp ${filtering}/reference_filter.cpp
   LINK luciole_real_time_filtering luciole_synthetic_room luciole_settings)

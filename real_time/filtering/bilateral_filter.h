@@ -12,7 +12,7 @@ namespace luciole {
 
 // The footprint that averages n x n interleaved pixels evenly must be a multiple of n. 8, [TH17]'s radius, serves n =
 // 1, 2, 4 and 8: smaller n needs less for its pattern, but roulette noise stays, and at 1280x720 no smaller radius has
-// a smaller error (docs/results/filter.md). For other n, the largest multiple up to 8.
+// a smaller error (docs/decisions/filter.md). For other n, the largest multiple up to 8.
 FilterRadius filter_radius(std::uint32_t interleave);
 
 class BilateralFilterPass {

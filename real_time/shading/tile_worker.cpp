@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::uint32_t kSlack = 16;  // kernels write whole registers past the end of a list
 
+}  // namespace
+
 TileFrustum frustum_of(const ScreenTile& tile) {
   TileFrustum f{};
   bool first = true;
@@ -26,8 +28,6 @@ TileFrustum frustum_of(const ScreenTile& tile) {
   f.far_low = has_far ? tile.half[1].z0 : 1.0f, f.far_high = has_far ? tile.half[1].z1 : 0.0f;
   return f;
 }
-
-}  // namespace
 
 TouchingLights& ListMemory::reserve(std::size_t lights) {
   if (index_.size() < lights + kSlack) {

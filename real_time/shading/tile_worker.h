@@ -11,6 +11,9 @@
 
 namespace luciole {
 
+// What the tile test asks of a tile: slopes that hold both halves, and each half's depths.
+TileFrustum frustum_of(const ScreenTile& tile);
+
 // The lists of one tile half, and the memory behind them.
 class ListMemory {
  public:

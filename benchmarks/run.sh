@@ -1,0 +1,159 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Remakes docs/results: benchmarks/run.sh [culling|speed|kernel|scaling|steadiness|filter|memory ...], all without
+# arguments. Builds into $BUILD (default: build). Shots of files take part where $LUCIOLE_SCENES names their folder.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=${BUILD:-build} results=docs/results
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir -p "$results"
+
+[[ -f $build/build.ninja ]] || cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DLUCIOLE_TESTS=OFF
+cmake --build "$build" --target luciole benchmarks > "$work/build.log" || { cat "$work/build.log"; exit 1; }
+programs=$build/benchmarks
+processor=$("$programs/kernel_benchmark" --processor)
+
+has_scenes() { [[ -n ${LUCIOLE_SCENES:-} ]]; }
+supports() { "$programs/kernel_benchmark" --supports "$1"; }
+
+# page NAME COMMAND...: what the command prints becomes the page, if it succeeds.
+page() {
+  local name=$1
+  shift
+  echo "== $name"
+  "$@" > "$work/$name.md"
+  mv "$work/$name.md" "$results/$name.md"
+}
+
+# Value of KEY in a statistics file of one frame: "passes_ms/culling" is the line "culling" below "passes_ms".
+value() {
+  awk -v path="$2" '
+    BEGIN { depth = split(path, name, "/"); at = 1 }
+    { line = $0; sub(/^ */, "", line)
+      if (index(line, "\"" name[at] "\":") == 1) {
+        if (at < depth) { at++; next }
+        sub(/^[^:]*: */, "", line); sub(/,$/, "", line); print line; exit } }' "$1"
+}
+
+# The names of the passes of a statistics file.
+passes() {
+  awk '/"passes_ms"/ { inside = 1; next } inside && /}/ { exit } inside { split($0, part, "\""); print part[2] }' "$1"
+}
+
+median() { sort -g | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
+
+# render NAME SHOT OPTION...: writes $work/NAME.json. Each run is a process of its own, as a user's.
+render() {
+  local name=$1 shot=$2
+  shift 2
+  "$build/luciole" render "$shot" --quiet -o "$work/picture.exr" --statistics "$work/$name.json" "$@" > /dev/null
+}
+
+# Median of KEY over the runs NAME.1 ... NAME.N.
+median_of() {
+  local file
+  for file in "$work/$1".[0-9]*.json; do value "$file" "$2"; done | median
+}
+
+main_shots() { has_scenes && echo sponza sibenik gallery || echo gallery; }
+
+speed() {
+  local shot isa run pass runs kinds=()
+  for isa in avx512 avx2 baseline; do supports "$isa" && kinds+=("$isa"); done
+  printf '# Speed\n\nRemake: `benchmarks/run.sh speed`. Processor: %s.\n\n' "$processor"
+  printf '`luciole render SHOT --size 1920x1080 --vpls 65536 --delta 0.001 --isa ISA`; medians [ms] of five runs on the\n'
+  printf 'fastest instruction set and of two on the others, each a process of its own. Loading and building the tree\nof '
+  printf 'triangles are not in the frame. Lights are means per pixel: listed for its tile half, left by the test of its\n'
+  printf 'group, accepted.\n'
+  for shot in $(main_shots); do
+    for isa in "${kinds[@]}"; do
+      runs=2
+      [[ $isa == "${kinds[0]}" ]] && runs=5
+      for ((run = 1; run <= runs; ++run)); do
+        render "$shot.$isa.$run" "$shot" --size 1920x1080 --vpls 65536 --delta 0.001 --isa "$isa"
+      done
+    done
+    printf '\n## %s\n\n| pass |' "$shot"
+    printf ' %s |' "${kinds[@]}"
+    printf '\n| --- |'
+    printf ' ---: |%.0s' "${kinds[@]}"
+    for pass in $(passes "$work/$shot.${kinds[0]}.1.json"); do speed_row "$shot" "$pass" "passes_ms/$pass" %.1f; done
+    speed_row "$shot" '**frame**' frame_ms %.0f
+    speed_row "$shot" 'pairs per second' light_pixel_evaluations_per_second %.2e
+    printf '\n\n| lights per pixel | total | diffuse | glossy |\n| --- | ---: | ---: | ---: |'
+    for key in listed evaluated accepted; do
+      printf '\n| %s |' "$key"
+      for lobe in total diffuse glossy; do
+        printf ' %.2f |' "$(value "$work/$shot.${kinds[0]}.1.json" "lights_${key}_per_pixel/$lobe")"
+      done
+    done
+    printf '\n'
+  done
+}
+
+# speed_row SHOT TITLE KEY FORMAT: one column per instruction set of `kinds`.
+speed_row() {
+  local kind
+  printf '\n| %s |' "$2"
+  for kind in "${kinds[@]}"; do printf " $4 |" "$(median_of "$1.$kind" "$3")"; done
+}
+
+memory() {
+  local vpls shot
+  shot=$(main_shots | cut -d' ' -f1)
+  printf '# Memory\n\nRemake: `benchmarks/run.sh memory`. Processor: %s.\n\n' "$processor"
+  printf 'Largest resident set of `luciole render %s --size 1920x1080 --vpls N`, scene and tree of triangles\nincluded.\n' \
+    "$shot"
+  printf '\n| virtual point lights | peak [GiB] | frame [ms] |\n| ---: | ---: | ---: |\n'
+  for vpls in 65536 1048576; do
+    render memory "$shot" --size 1920x1080 --vpls "$vpls"
+    printf '| %d | %.2f | %.0f |\n' "$vpls" \
+      "$(awk -v b="$(value "$work/memory.json" peak_memory_bytes)" 'BEGIN { print b / 2^30 }')" \
+      "$(value "$work/memory.json" frame_ms)"
+  done
+}
+
+# Cycles per light and 16 pixels that the ports of the inner loops need: lines "NAME CYCLES".
+port_bounds() {
+  local compiler mca=$1
+  compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[^=]*=//p' "$build/CMakeCache.txt")
+  "$compiler" -std=c++20 -O3 -fPIC -I. -mavx512f -mavx512dq -mavx512vl -mavx512bw -mavx2 -mfma -w -S \
+    benchmarks/marked_loops.cpp -o "$work/loops.s"
+  "$mca" -mcpu=icelake-server "$work/loops.s" 2> /dev/null |
+    awk '/Code Region - / { name = $NF } /Block RThroughput/ { print name, $NF }'
+}
+
+kernel() {
+  local shot mca
+  shot=$(main_shots | cut -d' ' -f1)
+  mca=$(command -v llvm-mca || command -v llvm-mca-14 || true)
+  if supports avx512 && [[ -n $mca ]]; then port_bounds "$mca" > "$work/bounds.txt"; fi
+  touch "$work/bounds.txt"
+  "$programs/kernel_benchmark" "$shot" "$work/bounds.txt"
+}
+
+filter() {
+  local isa
+  printf '# The filter\n\nRemake: `benchmarks/run.sh filter`. Processor: %s. What was tried and why:\n' "$processor"
+  printf '[decisions](../decisions/filter.md).\n'
+  for isa in avx512 avx2 baseline; do
+    supports "$isa" || continue
+    printf '\n## %s, 1920x1080\n\n```\n' "$isa"
+    "$programs/filter_benchmark" --size 1920x1080 --runs 5 --isa "$isa"
+    printf '```\n'
+  done
+}
+
+pages=("$@")
+((${#pages[@]})) || pages=(speed memory kernel filter scaling steadiness culling)
+for name in "${pages[@]}"; do
+  case $name in
+    speed | memory | kernel | filter) page "$name" "$name" ;;
+    scaling | steadiness | culling) page "$name" "$programs/${name}_benchmark" ;;
+    *)
+      echo "run.sh: no page '$name'" >&2
+      exit 2
+      ;;
+  esac
+done
