@@ -72,12 +72,12 @@ void add_colonnade(Scene& scene, const HallSize& size) {
   add_mesh(scene, "columns", plaster, std::move(columns));
   add_mesh(scene, "blocks", block, std::move(blocks));
   add_mesh(scene, "ball", add_material(scene, metal_material("ball", metal::kSilver, 0.12f)),
-           placed(grid_surface({64, 32, true, false, {1, 1}},
-                               [](float u, float v) {
-                                 const float r = 0.45f * std::sin(kPi * v), y = -0.45f * std::cos(kPi * v);
-                                 return Vec3{v == 1 ? 0 : r * std::cos(kTwoPi * u), y,
-                                             v == 1 ? 0 : -r * std::sin(kTwoPi * u)};
-                               }),
+           placed(grid_surface(
+                      {64, 32, true, false, {1, 1}},
+                      [](float u, float v) {
+                        const float r = 0.45f * std::sin(kPi * v), y = -0.45f * std::cos(kPi * v);
+                        return Vec3{v == 1 ? 0 : r * std::cos(kTwoPi * u), y, v == 1 ? 0 : -r * std::sin(kTwoPi * u)};
+                      }),
                   translate({0.2f, 0.45f, z * 0.35f})));
   add_mesh(scene, "jar", add_material(scene, metal_material("jar", metal::kBrass, 0.2f)),
            placed(jar(), translate({-0.9f, 0, z * 0.12f})));

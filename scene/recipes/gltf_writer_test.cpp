@@ -173,12 +173,15 @@ Scene written_and_read(const Scene& scene, const fs::path& path) {
 }
 
 TEST(GltfWriter, what_is_written_is_read_again) {
-  for (const char* name : {"rich.glb", "rich.gltf"}) expect_same(rich_scene(), written_and_read(rich_scene(), scratch(name)));
+  for (const char* name : {"rich.glb", "rich.gltf"})
+    expect_same(rich_scene(), written_and_read(rich_scene(), scratch(name)));
 }
 
 TEST(GltfWriter, every_recipe_survives_the_way_through_a_file) {
   const std::pair<const char*, std::map<std::string, std::string>> recipes[] = {
-      {"ring", {}}, {"gallery", {{"detail", "0.01"}}}, {"lights", {{"count", "50"}}},
+      {"ring", {}},
+      {"gallery", {{"detail", "0.01"}}},
+      {"lights", {{"count", "50"}}},
       {"lamps", {{"count", "203"}, {"textured", "1"}}}};
   for (const auto& [name, parameters] : recipes) {
     const Scene scene = *make_recipe(name, parameters);
@@ -191,7 +194,8 @@ TEST(GltfWriter, the_comparison_sees_a_difference) {
   Scene other = written_and_read(scene, scratch("other.glb"));
   other.meshes[0].positions[0].x += 1e-4f;
   other.materials[0].roughness += 1e-4f;
-  EXPECT_GT(length(other.meshes[0].positions[0] - scene.meshes[0].positions[0]), 4e-6f * length(scene.meshes[0].positions[0]));
+  EXPECT_GT(length(other.meshes[0].positions[0] - scene.meshes[0].positions[0]),
+            4e-6f * length(scene.meshes[0].positions[0]));
   EXPECT_NE(other.materials[0].roughness, scene.materials[0].roughness);
 }
 
@@ -234,7 +238,8 @@ TEST(GltfWriter, a_scene_without_anything_is_still_valid) {
 
 TEST(GltfWriter, failures_are_one_sentence_and_leave_no_file) {
   const Scene scene = *make_recipe("ring", {});
-  for (const fs::path& path : {scratch("scene.obj"), scratch("no/such/folder/scene.glb"), scratch("no/such/scene.gltf")}) {
+  for (const fs::path& path :
+       {scratch("scene.obj"), scratch("no/such/folder/scene.glb"), scratch("no/such/scene.gltf")}) {
     const Status status = write_gltf(scene, path);
     ASSERT_FALSE(status.has_value()) << path;
     EXPECT_NE(status.error().message.find(path.parent_path().string()), std::string::npos);

@@ -14,11 +14,12 @@
 namespace luciole::workshop {
 namespace {
 
-constexpr float kTotalFlux = 2400;    // of all lamps [W]
+constexpr float kTotalFlux = 2400;     // of all lamps [W]
 constexpr std::uint32_t kColours = 6;  // kinds of lamp
 constexpr std::uint32_t kFacets = 8;
 
-// Where lamp `index` of `count` hangs: festoons from wall to wall, between the columns' capitals, sagging in the middle.
+// Where lamp `index` of `count` hangs: festoons from wall to wall, between the columns' capitals, sagging in the
+// middle.
 Vec3 hanging_point(std::uint32_t index, std::uint32_t count, std::uint32_t seed, const HallSize& size) {
   const auto strings = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::sqrt(static_cast<float>(count)) / 2));
   const float along = (static_cast<float>(index / strings) + 0.5f) / static_cast<float>((count - 1) / strings + 1);

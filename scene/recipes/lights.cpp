@@ -16,7 +16,7 @@ constexpr float kTotalIntensity = 240;  // of all lights [W/sr]
 // A warm or cool colour whose mean is 1: hue in [0,1).
 Vec3 tint(float hue) {
   return {1 + 0.8f * std::cos(kTwoPi * hue), 1 + 0.8f * std::cos(kTwoPi * (hue - 1.0f / 3)),
-              1 + 0.8f * std::cos(kTwoPi * (hue - 2.0f / 3))};
+          1 + 0.8f * std::cos(kTwoPi * (hue - 2.0f / 3))};
 }
 
 PunctualLight make_light(std::uint32_t seed, std::uint32_t index, const HallSize& size, float mean_intensity) {

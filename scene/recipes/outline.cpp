@@ -70,7 +70,8 @@ Line trimmed_front(Line line, float amount) {
   const float step = distance(line[first], line[first + 1]);
   if (step > 0) line[first] = line[first] + (line[first + 1] - line[first]) * std::min(amount / step, 0.9f);
   // What is left of a cut segment may be so short that a bevel would turn it round: the next point goes.
-  if (amount > 0.4f * step && first + 2 < line.size()) line.erase(line.begin() + static_cast<std::ptrdiff_t>(first + 1));
+  if (amount > 0.4f * step && first + 2 < line.size())
+    line.erase(line.begin() + static_cast<std::ptrdiff_t>(first + 1));
   line.erase(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(first));
   return line;
 }

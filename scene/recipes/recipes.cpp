@@ -61,8 +61,8 @@ Result<workshop::Values> read_values(const RecipeDescription& recipe, const std:
   for (const auto& [name, text] : given) {
     const RecipeParameter* parameter = find_parameter(recipe, name);
     if (!parameter) {
-      const auto valid = names_of(recipe.parameters,
-                                  +[](const RecipeParameter& p) -> const std::string& { return p.name; });
+      const auto valid = names_of(
+          recipe.parameters, +[](const RecipeParameter& p) -> const std::string& { return p.name; });
       return usage("recipe " + recipe.name + " has no parameter \"" + name + "\"; it has: " + valid);
     }
     Result<double> value = read_value(recipe, *parameter, text);
@@ -91,7 +91,8 @@ Result<Scene> make_recipe(const std::string& name, const std::map<std::string, s
     scene.name = name;
     return scene;
   }
-  const auto valid = names_of(all(), +[](const Recipe& r) -> const std::string& { return r.description.name; });
+  const auto valid = names_of(
+      all(), +[](const Recipe& r) -> const std::string& { return r.description.name; });
   return usage("there is no recipe \"" + name + "\"; the recipes are: " + valid);
 }
 

@@ -79,11 +79,13 @@ std::string fault_of(const Mesh& mesh, std::size_t materials) {
   if (!mesh.tangents.empty() && mesh.tangents.size() != count) return "tangents differ in number";
   for (std::size_t i = 0; i < count; ++i) {
     if (!finite(mesh.positions[i])) return "position " + std::to_string(i) + " is not finite";
-    if (!(std::abs(length(mesh.normals[i]) - 1) < 1e-4f)) return "normal " + std::to_string(i) + " is not a unit vector";
+    if (!(std::abs(length(mesh.normals[i]) - 1) < 1e-4f))
+      return "normal " + std::to_string(i) + " is not a unit vector";
   }
   for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
     const Vec4 t = mesh.tangents[i];
-    if (!(std::abs(length(Vec3{t.x, t.y, t.z}) - 1) < 1e-4f) || std::abs(t.w) != 1) return "a tangent is not a unit vector";
+    if (!(std::abs(length(Vec3{t.x, t.y, t.z}) - 1) < 1e-4f) || std::abs(t.w) != 1)
+      return "a tangent is not a unit vector";
   }
   if (mesh.indices.empty() || mesh.indices.size() % 3 != 0) return "indices do not make triangles";
   for (std::size_t k = 0; k < mesh.indices.size(); k += 3) {
@@ -100,7 +102,8 @@ std::size_t open_edges(const Mesh& mesh) {
   std::map<Place, std::uint32_t> corner_at;
   std::vector<std::uint32_t> corner;
   for (const Vec3 p : mesh.positions) {
-    corner.push_back(corner_at.emplace(Place{p.x, p.y, p.z}, static_cast<std::uint32_t>(corner_at.size())).first->second);
+    corner.push_back(
+        corner_at.emplace(Place{p.x, p.y, p.z}, static_cast<std::uint32_t>(corner_at.size())).first->second);
   }
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
   for (std::size_t k = 0; k < mesh.indices.size(); k += 3) {
@@ -109,7 +112,8 @@ std::size_t open_edges(const Mesh& mesh) {
       balance[std::minmax(a, b)] += a < b ? 1 : -1;
     }
   }
-  return static_cast<std::size_t>(std::count_if(balance.begin(), balance.end(), [](const auto& e) { return e.second != 0; }));
+  return static_cast<std::size_t>(
+      std::count_if(balance.begin(), balance.end(), [](const auto& e) { return e.second != 0; }));
 }
 
 bool is_metal(const Material& material) { return material.metallic == 1; }
@@ -129,7 +133,8 @@ TEST(Recipes, another_seed_or_parameter_makes_another_scene) {
 TEST(Recipes, make_finite_meshes_with_unit_normals_and_whole_triangles) {
   for (const auto& [name, parameters] : small_samples()) {
     const Scene scene = make(name, parameters);
-    for (const Mesh& mesh : scene.meshes) EXPECT_EQ(fault_of(mesh, scene.materials.size()), "") << name << ": " << mesh.name;
+    for (const Mesh& mesh : scene.meshes)
+      EXPECT_EQ(fault_of(mesh, scene.materials.size()), "") << name << ": " << mesh.name;
     EXPECT_FALSE(scene.cameras.empty()) << name;
     EXPECT_FALSE(scene.textures.empty() && std::string(name) == "gallery");
   }
@@ -211,12 +216,13 @@ TEST(Recipes, gallery_is_full_at_full_detail_and_small_at_little) {
   const std::uint64_t full = make("gallery", {}).triangle_count();
   EXPECT_GE(full, 1300000u);
   EXPECT_LE(full, 1500000u);
-  EXPECT_LE(make("gallery", {{"detail", "0.05"}}).triangle_count(), full / 5);  // plates and mouldings are coarse already
+  EXPECT_LE(make("gallery", {{"detail", "0.05"}}).triangle_count(),
+            full / 5);  // plates and mouldings are coarse already
 }
 
 TEST(Recipes, turned_and_cut_objects_are_closed) {
   // Sweeps end in caps whose rims are the sweep's, bit for bit; mouldings and cloths are open and not claimed.
-  const std::set<std::string> closed = {"wedding ring", "bowl",    "tall goblet", "coil spring", "torus knot",
+  const std::set<std::string> closed = {"wedding ring", "bowl",    "tall goblet", "coil spring",  "torus knot",
                                         "mirror dish",  "letters", "large gear",  "chess bishop", "candlestick"};
   std::size_t seen = 0;
   for (const Mesh& mesh : make("gallery", {{"detail", "0.05"}}).meshes) {
@@ -250,7 +256,8 @@ TEST(Recipes, are_found_by_their_address) {
   ASSERT_TRUE(scene.has_value());
   EXPECT_EQ(hash_of(*scene), hash_of(make("ring", {{"alpha", "0.2"}, {"detail", "0.5"}})));
   EXPECT_TRUE(make_recipe_from_address("recipe:ring").has_value());
-  for (const char* address : {"ring", "recipe:", "recipe:ring?alpha", "recipe:ring?=1", "recipe:ring?alpha=1&alpha=1"}) {
+  for (const char* address :
+       {"ring", "recipe:", "recipe:ring?alpha", "recipe:ring?=1", "recipe:ring?alpha=1&alpha=1"}) {
     EXPECT_FALSE(make_recipe_from_address(address).has_value()) << address;
   }
 }

@@ -7,9 +7,15 @@
 namespace luciole::workshop {
 namespace {
 
-constexpr std::array<Vec3 (*)(float), 3> kAxis = {[](float s) { return Vec3{s, 0, 0}; },
-                                                   [](float s) { return Vec3{0, s, 0}; },
-                                                   [](float s) { return Vec3{0, 0, s}; }};
+constexpr std::array<Vec3 (*)(float), 3> kAxis = {[](float s) {
+                                                    return Vec3{s, 0, 0};
+                                                  },
+                                                  [](float s) {
+                                                    return Vec3{0, s, 0};
+                                                  },
+                                                  [](float s) {
+                                                    return Vec3{0, 0, s};
+                                                  }};
 
 // The box has 8 corners, each with three vertices, one per face that meets there: vertex(corner, axis). Bit k of
 // `corner` says on which side of axis k it lies. Its normal is that of the face: bevels blend between them.

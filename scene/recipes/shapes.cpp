@@ -76,7 +76,8 @@ Mesh lathe(const std::vector<Vec2>& profile, std::uint32_t columns) {
   float widest = 0;
   for (const Vec2 p : profile) widest = std::max(widest, p.x);
   std::vector<float> round;
-  for (std::uint32_t i = 0; i <= columns; ++i) round.push_back(kTwoPi * widest * static_cast<float>(i) / static_cast<float>(columns));
+  for (std::uint32_t i = 0; i <= columns; ++i)
+    round.push_back(kTwoPi * widest * static_cast<float>(i) / static_cast<float>(columns));
   set_uv(mesh, round, way_along(profile, false));
   return mesh;
 }
@@ -100,9 +101,9 @@ Mesh sweep(const Sweep& shape) {
     loop.push_back(loop.front());
     points.insert(points.end(), loop.begin(), loop.end());
   }
-  Mesh mesh = grid_from_points({static_cast<std::uint32_t>(sides), static_cast<std::uint32_t>(rows), true,
-                                shape.closed, {1, 1}},
-                               std::move(points));
+  Mesh mesh = grid_from_points(
+      {static_cast<std::uint32_t>(sides), static_cast<std::uint32_t>(rows), true, shape.closed, {1, 1}},
+      std::move(points));
   set_uv(mesh, way_along(shape.section, true), way_along(shape.path, shape.closed));
   if (shape.closed) return mesh;
   std::vector<Vec3> first = loop_at(0);

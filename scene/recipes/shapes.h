@@ -9,16 +9,16 @@
 
 namespace luciole::workshop {
 
-// Turns a profile of (radius, height) round +Y. Going up, the front is outside; a profile that starts and ends at radius
-// 0 is a closed solid. uv in metres round the widest place and along the profile.
+// Turns a profile of (radius, height) round +Y. Going up, the front is outside; a profile that starts and ends at
+// radius 0 is a closed solid. uv in metres round the widest place and along the profile.
 Mesh lathe(const std::vector<Vec2>& profile, std::uint32_t columns);
 
 struct Sweep {
-  std::vector<Vec3> path;     // a closed path does not repeat its first point
-  bool closed = false;        // otherwise both ends get flat caps
-  std::vector<Vec2> section;  // counter-clockwise loop, (across, up)
+  std::vector<Vec3> path;                            // a closed path does not repeat its first point
+  bool closed = false;                               // otherwise both ends get flat caps
+  std::vector<Vec2> section;                         // counter-clockwise loop, (across, up)
   std::function<float(float along)> size = nullptr;  // factor of the section at along in [0,1]; none: 1
-  std::optional<Vec3> up;     // the section's second axis stays near this; none: it twists as little as it can
+  std::optional<Vec3> up;  // the section's second axis stays near this; none: it twists as little as it can
 };
 Mesh sweep(const Sweep& shape);
 

@@ -51,7 +51,8 @@ Texture paint_normals(const std::string& name, std::uint32_t size, float metres,
   std::vector<float> heights(std::size_t(size) * size);
   parallel_for(size, 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin * size; k < end * size; ++k) {
-      heights[k] = height({(static_cast<float>(k % size) + 0.5f) * scale, (static_cast<float>(k / size) + 0.5f) * scale});
+      heights[k] =
+          height({(static_cast<float>(k % size) + 0.5f) * scale, (static_cast<float>(k / size) + 0.5f) * scale});
     }
   });
   return paint(name, size, Encoding::linear, [&](Vec2 at) {

@@ -9,7 +9,7 @@
 namespace luciole::workshop {
 
 // A place on the tile: x to the right, y down, both in [0,1).
-using PaintColour = std::function<Vec3(Vec2 place)>;  // linear, in [0,1]
+using PaintColour = std::function<Vec3(Vec2 place)>;   // linear, in [0,1]
 using PaintHeight = std::function<float(Vec2 place)>;  // [m], towards the viewer
 
 enum class Encoding { srgb, linear };

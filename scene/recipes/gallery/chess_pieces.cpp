@@ -37,15 +37,27 @@ Mesh turned(std::vector<Knot> knots, const std::vector<Knot>& head, Detail detai
 
 Mesh chess_king(Detail detail) {
   Mesh mesh = turned(foot(0.20f, 0.062f, 0.68f),
-                     {{0.085f, 0.78f}, {0.125f, 0.92f, 0.006f}, {0.12f, 0.94f, 0.006f}, {0.07f, 0.965f}, {0.02f, 0.985f},
+                     {{0.085f, 0.78f},
+                      {0.125f, 0.92f, 0.006f},
+                      {0.12f, 0.94f, 0.006f},
+                      {0.07f, 0.965f},
+                      {0.02f, 0.985f},
                       {0, 0.99f, kCrisp}},
                      detail);
   constexpr float kRound = 0.007f;
-  const std::vector<Vec2> cross = closed_line(
-      {{-0.018f, 0, kRound}, {0.018f, 0, kRound}, {0.014f, 0.045f, kRound}, {0.055f, 0.040f, kRound},
-       {0.055f, 0.080f, kRound}, {0.014f, 0.075f, kRound}, {0.022f, 0.125f, kRound}, {-0.022f, 0.125f, kRound},
-       {-0.014f, 0.075f, kRound}, {-0.055f, 0.080f, kRound}, {-0.055f, 0.040f, kRound}, {-0.014f, 0.045f, kRound}},
-      24);
+  const std::vector<Vec2> cross = closed_line({{-0.018f, 0, kRound},
+                                               {0.018f, 0, kRound},
+                                               {0.014f, 0.045f, kRound},
+                                               {0.055f, 0.040f, kRound},
+                                               {0.055f, 0.080f, kRound},
+                                               {0.014f, 0.075f, kRound},
+                                               {0.022f, 0.125f, kRound},
+                                               {-0.022f, 0.125f, kRound},
+                                               {-0.014f, 0.075f, kRound},
+                                               {-0.055f, 0.080f, kRound},
+                                               {-0.055f, 0.040f, kRound},
+                                               {-0.014f, 0.045f, kRound}},
+                                              24);
   append(mesh, extrude({cross, {}, 0.034f, 0.004f}), translate({0, 0.975f, 0}));
   return mesh;
 }
@@ -54,9 +66,9 @@ Mesh chess_queen(Detail detail) {
   const std::vector<Vec2> profile = open_line(
       [] {
         std::vector<Knot> knots = foot(0.19f, 0.058f, 0.62f);
-        const std::vector<Knot> head = {{0.075f, 0.72f}, {0.125f, 0.85f, 0.004f}, {0.115f, 0.855f, 0.004f},
-                                        {0.085f, 0.815f, 0.004f}, {0.05f, 0.84f}, {0.026f, 0.855f, 0.004f},
-                                        {0.035f, 0.885f}, {0, 0.92f, kCrisp}};
+        const std::vector<Knot> head = {{0.075f, 0.72f},          {0.125f, 0.85f, 0.004f}, {0.115f, 0.855f, 0.004f},
+                                        {0.085f, 0.815f, 0.004f}, {0.05f, 0.84f},          {0.026f, 0.855f, 0.004f},
+                                        {0.035f, 0.885f},         {0, 0.92f, kCrisp}};
         knots.insert(knots.end(), head.begin(), head.end());
         return knots;
       }(),
@@ -73,15 +85,23 @@ Mesh chess_queen(Detail detail) {
 
 Mesh chess_bishop(Detail detail) {
   return turned(foot(0.175f, 0.05f, 0.52f),
-                {{0.062f, 0.58f}, {0.088f, 0.66f}, {0.06f, 0.75f}, {0.02f, 0.795f, 0.004f}, {0.032f, 0.825f},
+                {{0.062f, 0.58f},
+                 {0.088f, 0.66f},
+                 {0.06f, 0.75f},
+                 {0.02f, 0.795f, 0.004f},
+                 {0.032f, 0.825f},
                  {0, 0.852f, kCrisp}},
                 detail);
 }
 
 Mesh chess_rook(Detail detail) {
   Mesh mesh = turned(foot(0.185f, 0.085f, 0.44f),
-                     {{0.10f, 0.52f, 0.006f}, {0.135f, 0.54f, 0.006f}, {0.135f, 0.60f, kCrisp}, {0.09f, 0.60f, kCrisp},
-                      {0.09f, 0.56f, kCrisp}, {0, 0.56f, kCrisp}},
+                     {{0.10f, 0.52f, 0.006f},
+                      {0.135f, 0.54f, 0.006f},
+                      {0.135f, 0.60f, kCrisp},
+                      {0.09f, 0.60f, kCrisp},
+                      {0.09f, 0.56f, kCrisp},
+                      {0, 0.56f, kCrisp}},
                      detail);
   for (int merlon = 0; merlon < 6; ++merlon) {  // battlements: sixths of a ring, less the gaps
     const auto arc = curve(detail.segments(12, 4) + 1, false, [&](float along) {
@@ -95,7 +115,8 @@ Mesh chess_rook(Detail detail) {
 
 Mesh chess_pawn(Detail detail) {
   return turned(foot(0.155f, 0.05f, 0.36f),
-                {{0.05f, 0.415f, 0.01f}, {0.085f, 0.455f}, {0.09f, 0.50f}, {0.055f, 0.565f}, {0, 0.585f, kCrisp}}, detail);
+                {{0.05f, 0.415f, 0.01f}, {0.085f, 0.455f}, {0.09f, 0.50f}, {0.055f, 0.565f}, {0, 0.585f, kCrisp}},
+                detail);
 }
 
 }  // namespace luciole::workshop::gallery

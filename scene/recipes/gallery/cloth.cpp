@@ -16,7 +16,8 @@ Mesh table_cloth(float table_radius, float table_height, Detail detail) {
     const float angle = kTwoPi * u, s = whole * (1 - v);  // from the hem inwards: the front is outside
     // Ridges are rounder than the valleys between them.
     const float main = std::sin(11 * angle + 1.4f * std::sin(2 * angle) + 0.8f * std::sin(3 * angle));
-    const float wave = 1.3f * (1 - 2 * std::pow(0.5f - 0.5f * main, 1.5f)) + 0.35f * std::sin(19 * angle + 2 * std::sin(3 * angle));
+    const float wave =
+        1.3f * (1 - 2 * std::pow(0.5f - 0.5f * main, 1.5f)) + 0.35f * std::sin(19 * angle + 2 * std::sin(3 * angle));
     float r = s, y = table_height + 0.004f;
     if (s > top + arc) {
       const float down = (s - top - arc) / hang;

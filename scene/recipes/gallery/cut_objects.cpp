@@ -68,9 +68,20 @@ Letter letter(char name, std::uint32_t samples) {
     case 'L':
       return {polygon({{0, 0}, {0.58f, 0}, {0.58f, kStem}, {kStem, kStem}, {kStem, 1}, {0, 1}}), {}, 0.68f};
     case 'E':
-      return {polygon({{0, 0}, {0.60f, 0}, {0.60f, 0.18f}, {kStem, 0.18f}, {kStem, 0.41f}, {0.52f, 0.41f},
-                       {0.52f, 0.59f}, {kStem, 0.59f}, {kStem, 0.82f}, {0.60f, 0.82f}, {0.60f, 1}, {0, 1}}),
-              {}, 0.72f};
+      return {polygon({{0, 0},
+                       {0.60f, 0},
+                       {0.60f, 0.18f},
+                       {kStem, 0.18f},
+                       {kStem, 0.41f},
+                       {0.52f, 0.41f},
+                       {0.52f, 0.59f},
+                       {kStem, 0.59f},
+                       {kStem, 0.82f},
+                       {0.60f, 0.82f},
+                       {0.60f, 1},
+                       {0, 1}}),
+              {},
+              0.72f};
     case 'U':
       return {letter_u(samples), {}, 0.85f};
     case 'C':
@@ -136,12 +147,16 @@ Mesh crown(Detail detail) {
   });
   for (const float height : {0.012f, 0.075f}) {  // two beaded hoops
     const float r = 0.177f + 1.12f * height * height;
-    append(mesh, tube(curve(columns / 2, true, [=](float along) {
-                        return Vec3{r * std::cos(kTwoPi * along), height, -r * std::sin(kTwoPi * along)};
-                      }), 0.011f, detail.segments(16), true));
+    append(mesh, tube(curve(columns / 2, true,
+                            [=](float along) {
+                              return Vec3{r * std::cos(kTwoPi * along), height, -r * std::sin(kTwoPi * along)};
+                            }),
+                      0.011f, detail.segments(16), true));
   }
-  const Mesh bead = lathe(open_line({{0, -0.022f, kCrisp}, {0.0156f, -0.0156f}, {0.022f, 0}, {0.0156f, 0.0156f},
-                                     {0, 0.022f, kCrisp}}, detail.segments(20)), detail.segments(24));
+  const Mesh bead =
+      lathe(open_line({{0, -0.022f, kCrisp}, {0.0156f, -0.0156f}, {0.022f, 0}, {0.0156f, 0.0156f}, {0, 0.022f, kCrisp}},
+                      detail.segments(20)),
+            detail.segments(24));
   for (int point = 0; point < kPoints; ++point) {
     const float angle = kTwoPi * static_cast<float>(point) / kPoints, r = 0.17f + 1.12f * 0.23f * 0.23f;
     append(mesh, bead, translate({r * std::cos(angle), 0.245f, -r * std::sin(angle)}));
@@ -158,7 +173,8 @@ Mesh letters(const std::string& word, float height, Detail detail) {
   float at = -total / 2;
   for (const char name : word) {
     const Letter shape = letter(name, samples);
-    append(mesh, extrude({shape.outline, shape.hole, 0.26f, kBevel}), scale({height, height, height}) * translate({at, 0, 0}));
+    append(mesh, extrude({shape.outline, shape.hole, 0.26f, kBevel}),
+           scale({height, height, height}) * translate({at, 0, 0}));
     at += shape.advance;
   }
   return mesh;

@@ -40,20 +40,32 @@ Mesh resting(const Mesh& mesh, const Affine& turn) {
 
 // A low plinth: a step with a rounded edge.
 Mesh plinth(float width, float height) {
-  return moulding(rounded_rectangle({width, width}, 0.008f),
-                  open_line({{0.05f, 0, kCrisp}, {0.05f, 0.4f * height, 0.006f}, {0.02f, 0.5f * height},
-                             {0, 0.6f * height, 0.003f}, {0, height, 0.008f}, {0.0005f - width / 2, height, kCrisp}},
-                            16));
+  return moulding(rounded_rectangle({width, width}, 0.008f), open_line({{0.05f, 0, kCrisp},
+                                                                        {0.05f, 0.4f * height, 0.006f},
+                                                                        {0.02f, 0.5f * height},
+                                                                        {0, 0.6f * height, 0.003f},
+                                                                        {0, height, 0.008f},
+                                                                        {0.0005f - width / 2, height, kCrisp}},
+                                                                       16));
 }
 
 // A pedestal with a moulded foot and cap; square, `width` wide at the die.
 Mesh pedestal(float width, float height) {
-  return moulding(rounded_rectangle({width, width}, 0.008f),
-                  open_line({{0.07f, 0, kCrisp}, {0.07f, 0.09f, 0.006f}, {0.055f, 0.10f, 0.003f}, {0.05f, 0.13f},
-                             {0.02f, 0.15f}, {0.012f, 0.17f, 0.003f}, {0, 0.18f, 0.003f}, {0, height - 0.13f, 0.003f},
-                             {0.012f, height - 0.12f, 0.003f}, {0.03f, height - 0.085f}, {0.055f, height - 0.07f, 0.004f},
-                             {0.055f, height - 0.015f, 0.004f}, {0.04f, height, 0.006f}, {0.0005f - width / 2, height, kCrisp}},
-                            30));
+  return moulding(rounded_rectangle({width, width}, 0.008f), open_line({{0.07f, 0, kCrisp},
+                                                                        {0.07f, 0.09f, 0.006f},
+                                                                        {0.055f, 0.10f, 0.003f},
+                                                                        {0.05f, 0.13f},
+                                                                        {0.02f, 0.15f},
+                                                                        {0.012f, 0.17f, 0.003f},
+                                                                        {0, 0.18f, 0.003f},
+                                                                        {0, height - 0.13f, 0.003f},
+                                                                        {0.012f, height - 0.12f, 0.003f},
+                                                                        {0.03f, height - 0.085f},
+                                                                        {0.055f, height - 0.07f, 0.004f},
+                                                                        {0.055f, height - 0.015f, 0.004f},
+                                                                        {0.04f, height, 0.006f},
+                                                                        {0.0005f - width / 2, height, kCrisp}},
+                                                                       30));
 }
 
 // The floor under the near window: low things, so that each has its sun.
@@ -61,7 +73,8 @@ void show_foreground(Showcase& s) {
   const Detail d = s.detail();
   s.show("amphora", amphora(d), at(-3.45f, 0.25f, 3.45f, 60), metal::kBrass, 0.14f);
   s.show("coil spring", coil_spring(d), at(-3.2f, 0, 1.45f), metal::kSteel, 0.22f);
-  s.show("bowl", resting(bowl(d), rotate_y(radians(48)) * rotate_z(radians(42))), at(-0.10f, 0, 2.35f), metal::kSilver, 0.12f);
+  s.show("bowl", resting(bowl(d), rotate_y(radians(48)) * rotate_z(radians(42))), at(-0.10f, 0, 2.35f), metal::kSilver,
+         0.12f);
   s.show("wedding ring", finger_ring(d), at(-1.70f, 0, 2.62f), metal::kGold, 0.08f);
   s.show("fallen pawn", resting(chess_pawn(d), rotate_y(radians(150)) * rotate_z(radians(-80))), at(0.42f, 0, 3.85f),
          metal::kBronze, 0.135f);
@@ -73,10 +86,11 @@ void show_table(Showcase& s) {
   const Detail d = s.detail();
   const Affine table = at(kTableX, 0, kTableZ);
   s.show("gold cloth", table_cloth(0.80f, 0.80f, d), table, metal::kNickel, 0.42f);
-  s.show("crown", crown(d), table * at(0.34f, kTableTop + 0.105f, -0.16f, 10), metal::kGold, 0.11f);
-  s.show("kettle", kettle(d), table * at(-0.36f, kTableTop, -0.22f, 195), metal::kCopper, 0.13f);
-  s.show("tall goblet", goblet(d), table * at(0.02f, kTableTop, 0.10f), metal::kSilver, 0.09f);
-  s.show("goblet", resting(goblet(d), rotate_y(radians(-35)) * rotate_z(radians(-96))), table * at(-0.14f, kTableTop, 0.56f), metal::kGold, 0.15f);
+  s.show("crown", crown(d), table * at(0.42f, kTableTop + 0.105f, -0.08f, 10), metal::kGold, 0.11f);
+  s.show("kettle", kettle(d), table * at(-0.40f, kTableTop, -0.16f, 195), metal::kCopper, 0.13f);
+  s.show("tall goblet", goblet(d), table * at(0.05f, kTableTop, 0.02f), metal::kSilver, 0.09f);
+  s.show("goblet", resting(goblet(d), rotate_y(radians(-35)) * rotate_z(radians(-96))),
+         table * at(-0.34f, kTableTop, 0.52f), metal::kGold, 0.15f);
 }
 
 void show_chess(Showcase& s) {
@@ -91,9 +105,17 @@ void show_chess(Showcase& s) {
 void show_barrier(Showcase& s) {
   const Detail d = s.detail();
   const Vec3 posts[] = {{1.80f, 0, -2.75f}, {1.75f, 0, -1.30f}, {2.40f, 0, 0.05f}, {3.90f, 0, 0.20f}};
-  const Mesh post = lathe(open_line({{0, 0, kCrisp}, {0.16f, 0, 0.006f}, {0.165f, 0.02f, 0.006f}, {0.06f, 0.06f},
-                                     {0.024f, 0.10f, 0.004f}, {0.022f, 0.86f, 0.004f}, {0.036f, 0.87f, 0.004f},
-                                     {0.036f, 0.90f, 0.004f}, {0.02f, 0.91f, 0.004f}, {0.045f, 0.955f}, {0, 1.0f, kCrisp}},
+  const Mesh post = lathe(open_line({{0, 0, kCrisp},
+                                     {0.16f, 0, 0.006f},
+                                     {0.165f, 0.02f, 0.006f},
+                                     {0.06f, 0.06f},
+                                     {0.024f, 0.10f, 0.004f},
+                                     {0.022f, 0.86f, 0.004f},
+                                     {0.036f, 0.87f, 0.004f},
+                                     {0.036f, 0.90f, 0.004f},
+                                     {0.02f, 0.91f, 0.004f},
+                                     {0.045f, 0.955f},
+                                     {0, 1.0f, kCrisp}},
                                     d.segments(64)),
                           d.segments(48));
   Mesh stanchions, chains;
@@ -116,8 +138,8 @@ void show_middle(Showcase& s) {
   s.show("trumpet", trumpet(d), translate({0.75f, 0.735f, -0.85f}) * rotate_y(radians(200)) * rotate_x(radians(12)),
          metal::kGold, 0.07f);
   s.show("torus knot", torus_knot(d), at(2.75f, 0.93f, -2.05f, 25), metal::kCopper, 0.10f);
-  s.show("mirror dish", mirror_dish(d), translate({4.40f, 1.25f, -0.95f}) * rotate_y(radians(25)) * rotate_z(radians(100)),
-         metal::kSilver, 0.065f);
+  s.show("mirror dish", mirror_dish(d),
+         translate({4.40f, 1.25f, -0.95f}) * rotate_y(radians(25)) * rotate_z(radians(100)), metal::kSilver, 0.065f);
 }
 
 void show_far_end(Showcase& s) {
@@ -130,8 +152,14 @@ void show_far_end(Showcase& s) {
 }
 
 Mesh round_table(Detail detail) {
-  return lathe(open_line({{0.32f, 0, kCrisp}, {0.30f, 0.05f}, {0.06f, 0.12f}, {0.08f, 0.4f}, {0.06f, 0.7f, kCrisp},
-                          {0.78f, 0.74f, kCrisp}, {0.78f, 0.79f, 0.02f}, {0, 0.795f, kCrisp}},
+  return lathe(open_line({{0.32f, 0, kCrisp},
+                          {0.30f, 0.05f},
+                          {0.06f, 0.12f},
+                          {0.08f, 0.4f},
+                          {0.06f, 0.7f, kCrisp},
+                          {0.78f, 0.74f, kCrisp},
+                          {0.78f, 0.79f, 0.02f},
+                          {0, 0.795f, kCrisp}},
                          detail.segments(30)),
                detail.segments(48));
 }
@@ -141,7 +169,8 @@ Mesh pillow(Detail detail) {
   return grid_surface({detail.segments(96, 16), detail.segments(48, 8), true, false, {1, 1}}, [](float u, float v) {
     const float angle = kTwoPi * u, c = std::cos(angle), s = std::sin(angle);
     const float ring = v == 0 || v == 1 ? 0 : std::sin(kPi * v);
-    const float r = 0.25f * std::pow(ring, 0.55f) / std::pow(std::pow(std::abs(c), 4.0f) + std::pow(std::abs(s), 4.0f), 0.25f);
+    const float r =
+        0.25f * std::pow(ring, 0.55f) / std::pow(std::pow(std::abs(c), 4.0f) + std::pow(std::abs(s), 4.0f), 0.25f);
     return Vec3{r * c, 0.06f - 0.062f * std::cos(kPi * v), -r * s};
   });
 }
@@ -156,7 +185,7 @@ void add_furniture(Scene& scene, const HallMaterials& materials, Detail detail) 
   append(wood, pedestal(0.62f, 0.52f), at(0.72f, 0, -0.85f, 20));
   append(wood, pedestal(0.95f, 0.40f), at(1.7f, 0, -6.3f));
   append(wood, round_table(detail), at(kTableX, 0, kTableZ));
-  append(cushion, pillow(detail), at(kTableX + 0.34f, kTableTop, kTableZ - 0.16f, 10));
+  append(cushion, pillow(detail), at(kTableX + 0.42f, kTableTop, kTableZ - 0.08f, 10));
   append(cushion, rounded_box({0.5f, 0.18f, 0.3f}, 0.06f), at(0.72f, 0.60f, -0.85f, 20));
   scale_uv(stone, kStoneTile);
   scale_uv(wood, kOakTile);

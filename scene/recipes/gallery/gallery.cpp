@@ -9,7 +9,8 @@
 namespace luciole::workshop {
 namespace {
 
-// The sun stands low enough to reach the far wall and a little ahead of the camera, so that reflections fall towards it.
+// The sun stands low enough to reach the far wall and a little ahead of the camera, so that reflections fall towards
+// it.
 void add_lights(Scene& scene) {
   const float elevation = radians(24), ahead = radians(8);
   const Vec3 towards{std::cos(elevation) * std::cos(ahead), -std::sin(elevation),

@@ -16,8 +16,13 @@ void add_door(Mesh& wood, Mesh& stone, const Affine& place) {
     append(wood, rounded_box({kWidth / 2 - 0.01f, kHeight, 0.06f}, 0.008f), place * translate({x, kHeight / 2, 0.03f}));
     for (const Vec2 span : {Vec2{0.18f, 0.95f}, Vec2{1.10f, 1.95f}, Vec2{2.10f, 2.74f}}) {
       const std::vector<Vec2> plan = rounded_rectangle({kWidth / 2 - 0.3f, span.y - span.x}, 0.002f);
-      const Mesh panel = moulding(plan, {{0.05f, 0}, {0.045f, 0.02f}, {0.02f, 0.028f}, {0, 0.012f}, {-0.02f, 0.008f},
-                                         {-0.07f, 0.022f}, {-0.16f, 0.024f}});
+      const Mesh panel = moulding(plan, {{0.05f, 0},
+                                         {0.045f, 0.02f},
+                                         {0.02f, 0.028f},
+                                         {0, 0.012f},
+                                         {-0.02f, 0.008f},
+                                         {-0.07f, 0.022f},
+                                         {-0.16f, 0.024f}});
       append(wood, panel, place * translate({x, (span.x + span.y) / 2, 0.06f}) * rotate_x(kPi / 2));
       append(wood, rounded_box({kWidth / 2 - 0.6f, span.y - span.x - 0.3f, 0.024f}, 0.002f),
              place * translate({x, (span.x + span.y) / 2, 0.072f}));
@@ -33,11 +38,16 @@ void add_door(Mesh& wood, Mesh& stone, const Affine& place) {
 
 // A baseboard and a string course along the walls between columns.
 void add_wall_lines(Mesh& stone) {
-  const std::vector<Vec2> board = open_line({{0, 0, kCrisp}, {0.05f, 0, kCrisp}, {0.05f, 0.26f, 0.01f},
-                                             {0.035f, 0.29f}, {0.02f, 0.34f, 0.01f}, {-0.02f, 0.34f, kCrisp}}, 10);
+  const std::vector<Vec2> board = open_line({{0, 0, kCrisp},
+                                             {0.05f, 0, kCrisp},
+                                             {0.05f, 0.26f, 0.01f},
+                                             {0.035f, 0.29f},
+                                             {0.02f, 0.34f, 0.01f},
+                                             {-0.02f, 0.34f, kCrisp}},
+                                            10);
   // One moulding all round the inside of the hall: an inside corner is a plan that runs clockwise.
-  std::vector<Vec2> plan = {{-kHalfWidth, -kHalfLength}, {-kHalfWidth, kHalfLength}, {kHalfWidth, kHalfLength},
-                            {kHalfWidth, -kHalfLength}};
+  std::vector<Vec2> plan = {
+      {-kHalfWidth, -kHalfLength}, {-kHalfWidth, kHalfLength}, {kHalfWidth, kHalfLength}, {kHalfWidth, -kHalfLength}};
   append(stone, moulding(plan, board));
 }
 

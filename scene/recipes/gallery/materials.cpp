@@ -87,8 +87,8 @@ Vec3 brick(Vec2 place) {
   const Cell cell = brick_cell(place);
   const std::uint32_t index = cell.row * 64 + cell.column;
   const float grain = tiling_fractal(place, 40, 4, 71);
-  const Vec3 burnt = blend({0.44f, 0.20f, 0.115f}, {0.56f, 0.335f, 0.20f}, unit_hash(13, index, 0));
-  const Vec3 clay = blend(burnt, {0.31f, 0.16f, 0.12f}, 0.35f * unit_hash(13, index, 1)) * (1 + 0.35f * grain);
+  const Vec3 burnt = blend({0.52f, 0.28f, 0.17f}, {0.66f, 0.43f, 0.29f}, unit_hash(13, index, 0));
+  const Vec3 clay = blend(burnt, {0.40f, 0.22f, 0.16f}, 0.35f * unit_hash(13, index, 1)) * (1 + 0.35f * grain);
   const float mortar = 1 - smooth_step(0.7f * kMortar, 1.3f * kMortar, cell.edge_metres + 0.003f * grain);
   return blend(clay, {0.56f, 0.51f, 0.43f}, mortar);
 }
@@ -116,8 +116,7 @@ Vec3 oak(Vec2 place) {
 
 float oak_height(Vec2 place) {
   const float seam = std::abs(place.y * 4 - std::round(place.y * 4)) / 4 * kOakTile;
-  return 0.0006f * oak_rings(place, static_cast<std::uint32_t>(place.y * 4)) +
-         0.003f * smooth_step(0.0f, 0.006f, seam);
+  return 0.0006f * oak_rings(place, static_cast<std::uint32_t>(place.y * 4)) + 0.003f * smooth_step(0.0f, 0.006f, seam);
 }
 
 // A carpet of 2.4 x 4.8 m whose one repeat is the whole of it: border, field of lozenges, star in the middle.

@@ -29,8 +29,8 @@ Height level(float height) {
   return [height](float) { return height; };
 }
 
-// The opening's outline in (z, y) relative to the middle of the bay, counter-clockwise seen from outside (-x side... z
-// to the right, y up), narrowed by `inset`.
+// The opening's outline in (z, y) relative to the middle of the bay, narrowed by `inset`: counter-clockwise with z to
+// the right and y upwards. [m]
 std::vector<Vec2> window_outline(float inset, std::uint32_t arc_samples) {
   const float w = kWindowHalfWidth - inset;
   std::vector<Vec2> outline = {{-w, kWindowSill + inset}, {w, kWindowSill + inset}};
@@ -87,7 +87,10 @@ Mesh glazing(float middle, Detail detail) {
   append(mesh, sweep({frame, true, rounded_rectangle({0.07f, 0.10f}, 0.012f), nullptr, Vec3{1, 0, 0}}));
   const float w = kWindowHalfWidth - 0.16f;
   const auto bar = [&](Vec2 a, Vec2 b, float thick) {
-    append(mesh, sweep({{place(a), place(b)}, false, rounded_rectangle({thick, thick * 1.4f}, thick * 0.2f), nullptr,
+    append(mesh, sweep({{place(a), place(b)},
+                        false,
+                        rounded_rectangle({thick, thick * 1.4f}, thick * 0.2f),
+                        nullptr,
                         Vec3{1, 0, 0}}));
   };
   for (const float z : {-w / 2, 0.0f, w / 2}) bar({z, kWindowSill + 0.16f}, {z, kWindowSpringing}, 0.05f);
@@ -99,13 +102,13 @@ Mesh glazing(float middle, Detail detail) {
     const Vec2 ray{std::cos(radians(degrees)), std::sin(radians(degrees))};
     bar(Vec2{0, kWindowSpringing} + ray * (0.36f * w), Vec2{0, kWindowSpringing} + ray * w, 0.035f);
   }
-  append(mesh, tube(curve(detail.segments(32, 8) + 1, false,
-                          [&](float along) {
-                            const float angle = kPi * along;
-                            return place(Vec2{0, kWindowSpringing} +
-                                         Vec2{std::cos(angle), std::sin(angle)} * (0.36f * w));
-                          }),
-                    0.022f, 8));
+  append(mesh,
+         tube(curve(detail.segments(32, 8) + 1, false,
+                    [&](float along) {
+                      const float angle = kPi * along;
+                      return place(Vec2{0, kWindowSpringing} + Vec2{std::cos(angle), std::sin(angle)} * (0.36f * w));
+                    }),
+              0.022f, 8));
   return mesh;
 }
 
@@ -114,8 +117,13 @@ Mesh window_trim(float middle, Detail detail) {
   std::vector<Vec3> path;
   for (const Vec2 p : window_outline(-0.05f, detail.segments(64, 12))) path.push_back({-kHalfWidth, p.y, middle + p.x});
   Mesh mesh = sweep({path, true,
-                     closed_line({{-0.10f, -0.02f, 0.002f}, {0.10f, -0.02f, 0.002f}, {0.10f, 0.04f, 0.008f},
-                                  {0.03f, 0.07f, 0.01f}, {-0.05f, 0.07f, 0.02f}, {-0.10f, 0.02f, 0.008f}}, 12),
+                     closed_line({{-0.10f, -0.02f, 0.002f},
+                                  {0.10f, -0.02f, 0.002f},
+                                  {0.10f, 0.04f, 0.008f},
+                                  {0.03f, 0.07f, 0.01f},
+                                  {-0.05f, 0.07f, 0.02f},
+                                  {-0.10f, 0.02f, 0.008f}},
+                                 12),
                      nullptr, Vec3{1, 0, 0}});
   append(mesh, rounded_box({0.34f, 0.09f, 2 * kWindowHalfWidth + 0.36f}, 0.015f),
          translate({-kHalfWidth + 0.05f, kWindowSill - 0.06f, middle}));
@@ -131,17 +139,22 @@ void add_shell(Scene& scene, const HallMaterials& materials, Detail detail) {
     const float middle = bay_centre(bay);
     append(walls, window_wall(middle, detail));
     append(walls, reveal(middle, detail));
-    append(walls, wall_piece([](float z) { return Vec3{kHalfWidth, 0, z}; },
-                             {middle - kBayLength / 2, middle + kBayLength / 2}, level(0),
-                             [=](float z) { return vault_height((z - middle) / (kBayLength / 2)); },
-                             detail.segments(96, 16)));
+    append(walls, wall_piece(
+                      [](float z) {
+                        return Vec3{kHalfWidth, 0, z};
+                      },
+                      {middle - kBayLength / 2, middle + kBayLength / 2}, level(0),
+                      [=](float z) { return vault_height((z - middle) / (kBayLength / 2)); }, detail.segments(96, 16)));
     append(stone, window_trim(middle, detail));
     append(bars, glazing(middle, detail));
   }
   for (const float side : {-1.0f, 1.0f}) {
-    append(walls, wall_piece([=](float x) { return Vec3{x, 0, side * kHalfLength}; },
-                             {side * kHalfWidth, -side * kHalfWidth}, level(0),
-                             [](float x) { return vault_height(x / kHalfWidth); }, detail.segments(96, 16)));
+    append(walls, wall_piece(
+                      [=](float x) {
+                        return Vec3{x, 0, side * kHalfLength};
+                      },
+                      {side * kHalfWidth, -side * kHalfWidth}, level(0),
+                      [](float x) { return vault_height(x / kHalfWidth); }, detail.segments(96, 16)));
   }
   scale_uv(floor, kFloorTile);
   scale_uv(walls, kPlasterTile);

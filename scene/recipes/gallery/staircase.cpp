@@ -21,9 +21,16 @@ Mesh tread(float angle) {
 }
 
 Mesh baluster(float height, Detail detail) {
-  return lathe(open_line({{0, 0, kCrisp}, {0.022f, 0, 0.003f}, {0.022f, 0.03f, 0.003f}, {0.010f, 0.06f},
-                          {0.012f, 0.25f * height}, {0.024f, 0.42f * height}, {0.010f, 0.55f * height, 0.003f},
-                          {0.018f, 0.58f * height}, {0.010f, 0.61f * height, 0.003f}, {0.009f, height - 0.02f},
+  return lathe(open_line({{0, 0, kCrisp},
+                          {0.022f, 0, 0.003f},
+                          {0.022f, 0.03f, 0.003f},
+                          {0.010f, 0.06f},
+                          {0.012f, 0.25f * height},
+                          {0.024f, 0.42f * height},
+                          {0.010f, 0.55f * height, 0.003f},
+                          {0.018f, 0.58f * height},
+                          {0.010f, 0.61f * height, 0.003f},
+                          {0.009f, height - 0.02f},
                           {0.014f, height, kCrisp}},
                          detail.segments(30, 12)),
                detail.segments(14, 7));
@@ -47,18 +54,25 @@ Mesh spiral_staircase(float height, Detail detail) {
   constexpr int kSteps = 19;
   constexpr float kRail = 0.92f;
   const float step_turn = kTwoPi * kTurn / kSteps, rise = height / kSteps;
-  Mesh mesh = lathe(open_line({{0, 0, kCrisp}, {0.2f, 0, 0.01f}, {0.2f, 0.04f, 0.01f}, {kInner, 0.10f, 0.01f},
-                               {kInner, height + kRail, 0.005f}, {0.13f, height + kRail + 0.03f, 0.005f},
-                               {0.10f, height + kRail + 0.15f}, {0, height + kRail + 0.21f, kCrisp}},
+  Mesh mesh = lathe(open_line({{0, 0, kCrisp},
+                               {0.2f, 0, 0.01f},
+                               {0.2f, 0.04f, 0.01f},
+                               {kInner, 0.10f, 0.01f},
+                               {kInner, height + kRail, 0.005f},
+                               {0.13f, height + kRail + 0.03f, 0.005f},
+                               {0.10f, height + kRail + 0.15f},
+                               {0, height + kRail + 0.21f, kCrisp}},
                               detail.segments(40, 16)),
                     detail.segments(48, 10));
   const Mesh one_tread = tread(1.06f * step_turn), one_baluster = baluster(kRail, detail);
   for (int step = 0; step < kSteps; ++step) {
-    const Affine place = translate({0, rise * static_cast<float>(step + 1), 0}) * rotate_y(step_turn * static_cast<float>(step));
+    const Affine place =
+        translate({0, rise * static_cast<float>(step + 1), 0}) * rotate_y(step_turn * static_cast<float>(step));
     append(mesh, one_tread, place);
     for (const float t : {0.17f, 0.67f}) {
       const float angle = t * step_turn;
-      append(mesh, one_baluster, place * translate({0.94f * std::cos(angle), rise * (t - 0.5f) * 0.5f, -0.94f * std::sin(angle)}));
+      append(mesh, one_baluster,
+             place * translate({0.94f * std::cos(angle), rise * (t - 0.5f) * 0.5f, -0.94f * std::sin(angle)}));
     }
   }
   const auto helix = [&](float radius, float lift) {

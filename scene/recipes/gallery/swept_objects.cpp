@@ -45,14 +45,22 @@ Mesh trumpet(Detail detail) {
     const float flare = std::max(0.0f, (along - 0.72f) / 0.28f);
     return 1 + 0.5f * along + 7.5f * std::pow(flare, 3.2f) + (along < 0.012f ? 0.9f : 0);
   };
-  Mesh mesh = sweep({smooth_path(through, detail.segments(420, 60)), false, circle(0.014f, detail.segments(48, 8)), width,
-                     Vec3{0, 0, 1}});
+  Mesh mesh = sweep({smooth_path(through, detail.segments(420, 60)), false, circle(0.014f, detail.segments(48, 8)),
+                     width, Vec3{0, 0, 1}});
   for (const float x : {-0.04f, 0.025f, 0.09f}) {  // valves
-    append(mesh, lathe(open_line({{0, -0.24f, kCrisp}, {0.024f, -0.24f, 0.004f}, {0.024f, 0.02f, 0.004f},
-                                  {0.027f, 0.025f, 0.003f}, {0.027f, 0.045f, 0.003f}, {0.006f, 0.05f, kCrisp},
-                                  {0.006f, 0.085f, kCrisp}, {0.016f, 0.09f, 0.002f}, {0.016f, 0.097f, 0.002f},
-                                  {0, 0.098f, kCrisp}}, detail.segments(40)),
-                       detail.segments(32)),
+    append(mesh,
+           lathe(open_line({{0, -0.24f, kCrisp},
+                            {0.024f, -0.24f, 0.004f},
+                            {0.024f, 0.02f, 0.004f},
+                            {0.027f, 0.025f, 0.003f},
+                            {0.027f, 0.045f, 0.003f},
+                            {0.006f, 0.05f, kCrisp},
+                            {0.006f, 0.085f, kCrisp},
+                            {0.016f, 0.09f, 0.002f},
+                            {0.016f, 0.097f, 0.002f},
+                            {0, 0.098f, kCrisp}},
+                           detail.segments(40)),
+                 detail.segments(32)),
            translate({x, 0, 0.032f}));
   }
   return mesh;
@@ -67,29 +75,42 @@ Mesh armillary_sphere(Detail detail) {
     return sweep({path, true, rounded_rectangle({0.012f, width}, 0.004f), nullptr, Vec3{0, 1, 0}});
   };
   Mesh rings;
-  append(rings, band(0.46f, 0.055f), rotate_x(kPi / 2));                                          // meridian
-  append(rings, band(0.47f, 0.07f));                                                              // horizon
-  append(rings, band(0.43f, 0.03f), rotate_z(radians(38)));                                       // equator
-  append(rings, band(0.415f, 0.06f), rotate_z(radians(38)) * rotate_x(radians(23.5f)));           // ecliptic
-  append(rings, band(0.43f, 0.03f), rotate_z(radians(38)) * rotate_x(kPi / 2));                   // colures
+  append(rings, band(0.46f, 0.055f), rotate_x(kPi / 2));                                 // meridian
+  append(rings, band(0.47f, 0.07f));                                                     // horizon
+  append(rings, band(0.43f, 0.03f), rotate_z(radians(38)));                              // equator
+  append(rings, band(0.415f, 0.06f), rotate_z(radians(38)) * rotate_x(radians(23.5f)));  // ecliptic
+  append(rings, band(0.43f, 0.03f), rotate_z(radians(38)) * rotate_x(kPi / 2));          // colures
   append(rings, band(0.43f, 0.03f), rotate_z(radians(38)) * rotate_y(kPi / 2) * rotate_x(kPi / 2));
   for (const float side : {-1.0f, 1.0f}) {  // tropics
     append(rings, band(0.395f, 0.022f), rotate_z(radians(38)) * translate({0, side * 0.17f, 0}));
   }
   const Vec3 pole{-std::sin(radians(38)) * 0.52f, std::cos(radians(38)) * 0.52f, 0};
   append(rings, tube({-pole, pole}, 0.008f, detail.segments(16)));
-  append(rings, lathe(open_line({{0, -0.09f, kCrisp}, {0.064f, -0.064f}, {0.09f, 0}, {0.064f, 0.064f}, {0, 0.09f, kCrisp}},
-                                detail.segments(48)), detail.segments(80)));
-  Mesh mesh = lathe(open_line({{0, 0, kCrisp}, {0.24f, 0, 0.006f}, {0.245f, 0.03f, 0.006f}, {0.15f, 0.06f},
-                               {0.05f, 0.11f, 0.004f}, {0.075f, 0.15f}, {0.035f, 0.20f, 0.004f}, {0.03f, 0.30f},
-                               {0.06f, 0.345f, 0.004f}, {0.03f, 0.38f, 0.004f}, {0, 0.385f, kCrisp}},
+  append(rings,
+         lathe(open_line({{0, -0.09f, kCrisp}, {0.064f, -0.064f}, {0.09f, 0}, {0.064f, 0.064f}, {0, 0.09f, kCrisp}},
+                         detail.segments(48)),
+               detail.segments(80)));
+  Mesh mesh = lathe(open_line({{0, 0, kCrisp},
+                               {0.24f, 0, 0.006f},
+                               {0.245f, 0.03f, 0.006f},
+                               {0.15f, 0.06f},
+                               {0.05f, 0.11f, 0.004f},
+                               {0.075f, 0.15f},
+                               {0.035f, 0.20f, 0.004f},
+                               {0.03f, 0.30f},
+                               {0.06f, 0.345f, 0.004f},
+                               {0.03f, 0.38f, 0.004f},
+                               {0, 0.385f, kCrisp}},
                               detail.segments(72)),
                     detail.segments(96));
   for (int arm = 0; arm < 4; ++arm) {  // the cradle
-    append(mesh, tube(curve(detail.segments(40), false, [](float along) {
+    append(mesh,
+           tube(curve(detail.segments(40), false,
+                      [](float along) {
                         const float angle = radians(-86) + radians(86) * along;
                         return Vec3{0.49f * std::cos(angle), 0.86f + 0.49f * std::sin(angle), 0};
-                      }), 0.011f, detail.segments(16)),
+                      }),
+                0.011f, detail.segments(16)),
            rotate_y(radians(45 + 90 * static_cast<float>(arm))));
   }
   append(mesh, rings, translate({0, 0.86f, 0}));

@@ -10,11 +10,15 @@ namespace luciole::workshop::gallery {
 
 Mesh finger_ring(Detail detail) {
   // Flat inside, gently domed outside: a closed profile, so the section is swept round a circle.
-  const std::vector<Vec2> section = closed_line(
-      {{-0.022f, -0.11f, 0.012f}, {0.020f, -0.105f, 0.02f}, {0.036f, 0}, {0.020f, 0.105f, 0.02f}, {-0.022f, 0.11f, 0.012f}},
-      detail.segments(72, 12));
+  const std::vector<Vec2> section = closed_line({{-0.022f, -0.11f, 0.012f},
+                                                 {0.020f, -0.105f, 0.02f},
+                                                 {0.036f, 0},
+                                                 {0.020f, 0.105f, 0.02f},
+                                                 {-0.022f, 0.11f, 0.012f}},
+                                                detail.segments(72, 12));
   const auto path = curve(detail.segments(320, 24), true, [](float along) {
-    return Vec3{0.55f * std::cos(kTwoPi * along), 0.111f, 0.55f * std::sin(kTwoPi * along)};  // clockwise: x is outwards
+    return Vec3{0.55f * std::cos(kTwoPi * along), 0.111f,
+                0.55f * std::sin(kTwoPi * along)};  // clockwise: x is outwards
   });
   return sweep({path, true, section, nullptr, Vec3{0, 1, 0}});
 }
@@ -67,8 +71,11 @@ Mesh amphora(Detail detail) {
   const GridShape shape{columns, static_cast<std::uint32_t>(profile.size() - 1), true, false, {2, 2}};
   mesh = grid_from_points(shape, std::move(points));
   for (const float side : {-1.0f, 1.0f}) {  // handles, ear-shaped
-    const auto ear = smooth_path({{side * 0.09f, 1.22f, 0}, {side * 0.22f, 1.27f, 0}, {side * 0.30f, 1.15f, 0},
-                                  {side * 0.29f, 0.97f, 0}, {side * 0.25f, 0.88f, 0}},
+    const auto ear = smooth_path({{side * 0.09f, 1.22f, 0},
+                                  {side * 0.22f, 1.27f, 0},
+                                  {side * 0.30f, 1.15f, 0},
+                                  {side * 0.29f, 0.97f, 0},
+                                  {side * 0.25f, 0.88f, 0}},
                                  detail.segments(64, 10));
     append(mesh, sweep({ear, false, rounded_rectangle({0.05f, 0.022f}, 0.009f), nullptr, Vec3{0, 0, 1}}));
   }
@@ -121,8 +128,13 @@ Mesh bell(Detail detail) {
     return Vec3{0.075f * std::cos(kTwoPi * along), 0.81f + 0.075f * std::sin(kTwoPi * along), 0};
   });
   append(mesh, tube(loop, 0.024f, detail.segments(20), true));
-  append(mesh, lathe(open_line({{0, -0.06f, kCrisp}, {0.055f, -0.03f}, {0.05f, 0.03f}, {0.015f, 0.09f, kCrisp},
-                                {0.012f, 0.69f, kCrisp}, {0, 0.69f, kCrisp}}, detail.segments(30)),
+  append(mesh, lathe(open_line({{0, -0.06f, kCrisp},
+                                {0.055f, -0.03f},
+                                {0.05f, 0.03f},
+                                {0.015f, 0.09f, kCrisp},
+                                {0.012f, 0.69f, kCrisp},
+                                {0, 0.69f, kCrisp}},
+                               detail.segments(30)),
                      detail.segments(40)));
   return mesh;
 }
@@ -145,28 +157,14 @@ Mesh mirror_dish(Detail detail) {
 }
 
 Mesh candlestick(Detail detail) {
-  return lathe(open_line({{0, 0.01f, kCrisp},
-                          {0.15f, 0, 0.006f},
-                          {0.155f, 0.03f, 0.006f},
-                          {0.09f, 0.06f},
-                          {0.035f, 0.11f, 0.004f},
-                          {0.055f, 0.14f},
-                          {0.03f, 0.17f, 0.004f},
-                          {0.025f, 0.25f},
-                          {0.045f, 0.36f},
-                          {0.022f, 0.47f, 0.003f},
-                          {0.05f, 0.50f},
-                          {0.022f, 0.53f, 0.003f},
-                          {0.028f, 0.60f, 0.003f},
-                          {0.095f, 0.625f, 0.004f},
-                          {0.095f, 0.635f, 0.004f},
-                          {0.03f, 0.63f, 0.003f},
-                          {0.036f, 0.70f, 0.003f},
-                          {0.028f, 0.70f, 0.003f},
-                          {0.026f, 0.645f, kCrisp},
-                          {0, 0.645f, kCrisp}},
-                         detail.segments(150, 30)),
-               detail.segments(96, 14));
+  return lathe(
+      open_line({{0, 0.01f, kCrisp},      {0.15f, 0, 0.006f},       {0.155f, 0.03f, 0.006f},  {0.09f, 0.06f},
+                 {0.035f, 0.11f, 0.004f}, {0.055f, 0.14f},          {0.03f, 0.17f, 0.004f},   {0.025f, 0.25f},
+                 {0.045f, 0.36f},         {0.022f, 0.47f, 0.003f},  {0.05f, 0.50f},           {0.022f, 0.53f, 0.003f},
+                 {0.028f, 0.60f, 0.003f}, {0.095f, 0.625f, 0.004f}, {0.095f, 0.635f, 0.004f}, {0.03f, 0.63f, 0.003f},
+                 {0.036f, 0.70f, 0.003f}, {0.028f, 0.70f, 0.003f},  {0.026f, 0.645f, kCrisp}, {0, 0.645f, kCrisp}},
+                detail.segments(150, 30)),
+      detail.segments(96, 14));
 }
 
 Mesh kettle(Detail detail) {
@@ -184,9 +182,9 @@ Mesh kettle(Detail detail) {
                                {0, 0.455f, kCrisp}},
                               detail.segments(130, 24)),
                     detail.segments(192, 18));
-  const auto spout = smooth_path({{0.20f, 0.11f, 0}, {0.29f, 0.13f, 0}, {0.335f, 0.20f, 0}, {0.36f, 0.28f, 0},
-                                  {0.42f, 0.325f, 0}},
-                                 detail.segments(72, 10));
+  const auto spout =
+      smooth_path({{0.20f, 0.11f, 0}, {0.29f, 0.13f, 0}, {0.335f, 0.20f, 0}, {0.36f, 0.28f, 0}, {0.42f, 0.325f, 0}},
+                  detail.segments(72, 10));
   append(mesh, sweep({spout, false, circle(0.052f, detail.segments(48)), [](float along) { return 1 - 0.62f * along; },
                       Vec3{0, 0, 1}}));
   const auto handle = curve(detail.segments(96, 12), false, [](float along) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rib vaults: over each bay the elliptic barrel across the hall meets the one along it. Both rise equally, so the groins
-// are straight diagonals in plan, and each quarter of a bay is ruled between a diagonal and an edge.
+// Rib vaults: over each bay the elliptic barrel across the hall meets the one along it. Both rise equally, so the
+// groins are straight diagonals in plan, and each quarter of a bay is ruled between a diagonal and an edge.
 #include <cmath>
 
 #include "scene/recipes/gallery/hall.h"
@@ -78,15 +78,24 @@ Mesh rib(Vec3 ends, float width, float drop, Detail detail) {
       points.push_back(path[i] + across * p.x + outwards * p.y);
     }
   }
-  const GridShape shape{static_cast<std::uint32_t>(section.size()), static_cast<std::uint32_t>(path.size() - 1), true,
-                        false, {width * 3, 8}};
+  const GridShape shape{static_cast<std::uint32_t>(section.size()),
+                        static_cast<std::uint32_t>(path.size() - 1),
+                        true,
+                        false,
+                        {width * 3, 8}};
   return grid_from_points(shape, std::move(points));
 }
 
 // The boss where the diagonal ribs cross.
 Mesh boss(Detail detail) {
-  return lathe(open_line({{0, -0.20f, kCrisp}, {0.05f, -0.19f}, {0.09f, -0.13f}, {0.16f, -0.15f, kCrisp},
-                          {0.24f, -0.10f}, {0.26f, -0.03f}, {0.24f, 0.05f, kCrisp}, {0, 0.05f, kCrisp}},
+  return lathe(open_line({{0, -0.20f, kCrisp},
+                          {0.05f, -0.19f},
+                          {0.09f, -0.13f},
+                          {0.16f, -0.15f, kCrisp},
+                          {0.24f, -0.10f},
+                          {0.26f, -0.03f},
+                          {0.24f, 0.05f, kCrisp},
+                          {0, 0.05f, kCrisp}},
                          detail.segments(24)),
                detail.segments(48));
 }
