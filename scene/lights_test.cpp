@@ -14,7 +14,7 @@ namespace {
 
 Json light_file(const Json& light, const Json& node = Json::object()) {
   Json file = square_file();
-  file["extensions"]["KHR_lights_punctual"]["lights"] = {light};
+  file["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({light});
   file["nodes"].push_back(node);
   file["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 0;
   file["scenes"][0]["nodes"] = {0, 1};

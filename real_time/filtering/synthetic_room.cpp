@@ -46,7 +46,8 @@ Surface look(Vec3 ray) {
   if (ray.x * step.distance > 0.4f) see(nearest, step);
   Surface floor = plane(ray, {0, 1, 0}, -1.0f, 0.4f, 2);
   const Vec3 at = ray * floor.distance;
-  if ((static_cast<int>(std::floor(at.x * 2)) + static_cast<int>(std::floor(at.z * 2))) % 2 == 0) {
+  if (std::isfinite(at.x + at.z) &&
+      (static_cast<int>(std::floor(at.x * 2)) + static_cast<int>(std::floor(at.z * 2))) % 2 == 0) {
     floor.ggx_alpha = 0.1f, floor.material = 3;
   }
   see(nearest, floor);

@@ -23,31 +23,40 @@ void point_to(const float* (&to)[3], const Plane3& from) {
   for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis].data();
 }
 
-// Lays out the subsets, then lets fill(first, step, count, entry) write 16 entries at a time, on all threads.
+// Lights by subset, in their order within each. The subset is that of the key, never of the place in a compacted list:
+// a light that is lost elsewhere must not move all others to other pixels.
+std::vector<std::vector<std::uint32_t>> lights_by_subset(const AlignedVector<std::uint32_t>& key,
+                                                         std::uint32_t subsets) {
+  std::vector<std::vector<std::uint32_t>> lists(subsets);
+  for (std::vector<std::uint32_t>& list : lists) list.reserve(key.size() / subsets + 1);
+  for (std::uint32_t i = 0; i < key.size(); ++i) lists[key[i] % subsets].push_back(i);
+  return lists;
+}
+
+// Lays out the subsets, then lets fill(piece, emitters, bounds) write 16 entries at a time, on all threads.
 template <class Emitter, class Fill>
-ReachingLights<Emitter> by_subset(std::size_t lights, std::uint32_t interleave, const Fill& fill) {
+ReachingLights<Emitter> by_subset(const AlignedVector<std::uint32_t>& key, std::uint32_t interleave, const Fill& fill) {
   const std::uint32_t subsets = interleave * interleave;
+  const std::vector<std::vector<std::uint32_t>> lists = lights_by_subset(key, subsets);
   ReachingLights<Emitter> out;
-  struct Piece {
-    std::uint32_t subset, offset;
-  };
-  std::vector<Piece> pieces;
+  std::vector<SubsetPiece> pieces;
+  std::vector<std::uint32_t> entry_of_piece;
   std::uint32_t entries = 0;
   for (std::uint32_t s = 0; s < subsets; ++s) {
-    const std::uint32_t count = s < lights ? static_cast<std::uint32_t>((lights - s + subsets - 1) / subsets) : 0;
+    const auto count = static_cast<std::uint32_t>(lists[s].size());
     out.begin.push_back(entries);
     out.count.push_back(count);
-    for (std::uint32_t offset = 0; offset < count; offset += 16) pieces.push_back({s, offset});
+    for (std::uint32_t offset = 0; offset < count; offset += 16) {
+      pieces.push_back({lists[s].data() + offset, std::min(16u, count - offset), s, subsets});
+      entry_of_piece.push_back(entries + offset);
+    }
     entries += (count + 15) / 16 * 16;
   }
   out.emitters.resize(entries);
   out.bounds.resize(entries / 16);
   parallel_for(pieces.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Piece piece = pieces[i];
-      const std::uint32_t entry = out.begin[piece.subset] + piece.offset;
-      fill(piece.subset + piece.offset * subsets, subsets, std::min(16u, out.count[piece.subset] - piece.offset),
-           &out.emitters[entry], out.bounds[entry / 16]);
+      fill(pieces[i], &out.emitters[entry_of_piece[i]], out.bounds[entry_of_piece[i] / 16]);
     }
   });
   return out;
@@ -108,31 +117,28 @@ RangeParameters range_parameters(const Settings& settings, const Camera& camera,
 ReachingLights<DiffuseEmitter> reach_diffuse_lobes(const VirtualPointLights& lights, const RangeParameters& parameters,
                                                    std::uint32_t interleave, Isa isa) {
   const VplPlanes planes = planes_of(lights);
-  return by_subset<DiffuseEmitter>(
-      lights.size(), interleave,
-      [&](std::uint32_t first, std::uint32_t step, std::uint32_t count, DiffuseEmitter* emitters, BoundBlock& bounds) {
-        LUCIOLE_FOR_ISA(isa, reach_diffuse(planes, parameters, first, step, count, emitters, bounds));
-      });
+  return by_subset<DiffuseEmitter>(lights.key, interleave,
+                                   [&](const SubsetPiece& piece, DiffuseEmitter* emitters, BoundBlock& bounds) {
+                                     LUCIOLE_FOR_ISA(isa, reach_diffuse(planes, parameters, piece, emitters, bounds));
+                                   });
 }
 
 ReachingLights<GlossyEmitter> reach_glossy_lobes(const VirtualPointLights& lights, const RangeParameters& parameters,
                                                  std::uint32_t interleave, Isa isa) {
   const VplPlanes planes = planes_of(lights);
-  return by_subset<GlossyEmitter>(
-      lights.size(), interleave,
-      [&](std::uint32_t first, std::uint32_t step, std::uint32_t count, GlossyEmitter* emitters, BoundBlock& bounds) {
-        LUCIOLE_FOR_ISA(isa, reach_glossy(planes, parameters, first, step, count, emitters, bounds));
-      });
+  return by_subset<GlossyEmitter>(lights.key, interleave,
+                                  [&](const SubsetPiece& piece, GlossyEmitter* emitters, BoundBlock& bounds) {
+                                    LUCIOLE_FOR_ISA(isa, reach_glossy(planes, parameters, piece, emitters, bounds));
+                                  });
 }
 
 ReachingLights<ManyEmitter> reach_many_lights(const ManyLights& lights, const RangeParameters& parameters,
                                               std::uint32_t interleave, Isa isa) {
   const ManyPlanes planes = planes_of(lights);
-  return by_subset<ManyEmitter>(
-      lights.size(), interleave,
-      [&](std::uint32_t first, std::uint32_t step, std::uint32_t count, ManyEmitter* emitters, BoundBlock& bounds) {
-        LUCIOLE_FOR_ISA(isa, reach_many(planes, parameters, first, step, count, emitters, bounds));
-      });
+  return by_subset<ManyEmitter>(lights.key, interleave,
+                                [&](const SubsetPiece& piece, ManyEmitter* emitters, BoundBlock& bounds) {
+                                  LUCIOLE_FOR_ISA(isa, reach_many(planes, parameters, piece, emitters, bounds));
+                                });
 }
 
 }  // namespace luciole

@@ -14,11 +14,10 @@ struct Lanes {
   alignas(64) std::uint32_t index[16];
 };
 
-LUCIOLE_FN Lanes lanes_of(std::uint32_t first, std::uint32_t step, std::uint32_t lane, std::uint32_t count) {
+LUCIOLE_FN Lanes lanes_of(const SubsetPiece& piece, std::uint32_t lane) {
   Lanes lanes;
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(kLanes); ++i) {
-    const std::uint32_t entry = lane + i < count ? lane + i : count - 1;
-    lanes.index[i] = first + step * entry;
+    lanes.index[i] = piece.lights[lane + i < piece.count ? lane + i : piece.count - 1];
   }
   return lanes;
 }
@@ -33,10 +32,10 @@ LUCIOLE_FN real3 broadcast3(const float (&v)[3]) { return real3(real(v[0]), real
 // only one: neighbours along the curve of keys belong to different subsets, so the subset's part of the key is dropped,
 // and each subset gets a shift of its own.
 LUCIOLE_FN uint_ light_bits(const RangeParameters& p, const std::uint32_t* key, const Lanes& lanes,
-                            std::uint32_t subset, std::uint32_t subsets, std::uint32_t dimension) {
+                            const SubsetPiece& piece, std::uint32_t dimension) {
   alignas(64) std::uint32_t keys[16];
-  for (int i = 0; i < kLanes; ++i) keys[i] = p.stratified ? key[lanes.index[i]] / subsets : key[lanes.index[i]];
-  if (p.stratified) return stratified_bits(load(keys), uint_(p.stratum_shift + subset * 0x9e3779b9u));
+  for (int i = 0; i < kLanes; ++i) keys[i] = p.stratified ? key[lanes.index[i]] / piece.subsets : key[lanes.index[i]];
+  if (p.stratified) return stratified_bits(load(keys), uint_(p.stratum_shift + piece.subset * 0x9e3779b9u));
   return random_words(uint_(p.seed), uint_(p.frame), load(keys), uint_(dimension)).first;
 }
 
@@ -164,24 +163,24 @@ LUCIOLE_FN BoundingEllipsoid glossy_bound(const RangeParameters& p, GlossyLobe l
 
 }  // namespace
 
-void reach_diffuse(const VplPlanes& lights, const RangeParameters& p, std::uint32_t first, std::uint32_t step,
-                   std::uint32_t count, DiffuseEmitter* emitters, BoundBlock& bounds) {
+void reach_diffuse(const VplPlanes& lights, const RangeParameters& p, const SubsetPiece& piece,
+                   DiffuseEmitter* emitters, BoundBlock& bounds) {
   const ViewFrame view = view_frame(p);
   for (int lane = 0; lane < 16; lane += kLanes) {
-    const Lanes lanes = lanes_of(first, step, static_cast<std::uint32_t>(lane), count);
+    const Lanes lanes = lanes_of(piece, static_cast<std::uint32_t>(lane));
     const real3 position = gather3(lights.position, lanes), normal = gather3(lights.normal, lanes);
     const real3 geometric_normal = gather3(lights.geometric_normal, lanes), incident = gather3(lights.incident, lanes);
     const real3 intensity = gather3(lights.flux, lanes) * gather3(lights.diffuse_albedo, lanes);
     const real f0_max = largest_channel(gather3(lights.f0, lanes)), f90 = gather1(lights.f90, lanes);
-    const real xi = xi_of(p, light_bits(p, lights.key, lanes, first % step, step, kDimensionVpl));
+    const real xi = xi_of(p, light_bits(p, lights.key, lanes, piece, kDimensionVpl));
     const real scale = peak_over_delta(p, intensity);
-    const mask reaches = first_lanes(static_cast<std::uint32_t>(lanes_in_use(lane, count))) && scale > 0.0f;
+    const mask reaches = first_lanes(static_cast<std::uint32_t>(lanes_in_use(lane, piece.count))) && scale > 0.0f;
     store_bound(p, view, diffuse_bound(p, position, normal, diffuse_peak_flux(scale, f0_max, f90) / xi), position,
                 geometric_normal, reaches, bounds, lane);
     const Column3 c_position(position), c_normal(normal), c_geometric(geometric_normal), c_incident(incident);
     const Column3 c_intensity(intensity);
     const Column c_scale(scale), c_xi(xi), c_f0(f0_max), c_f90(f90), c_disc(disc_of(p, gather1(lights.area, lanes)));
-    for (int i = 0; i < lanes_in_use(lane, count); ++i) {
+    for (int i = 0; i < lanes_in_use(lane, piece.count); ++i) {
       DiffuseEmitter& e = emitters[lane + i];
       c_position.put(i, e.position), c_normal.put(i, e.normal), c_geometric.put(i, e.geometric_normal);
       c_incident.put(i, e.incident), c_intensity.put(i, e.intensity);
@@ -191,19 +190,19 @@ void reach_diffuse(const VplPlanes& lights, const RangeParameters& p, std::uint3
   }
 }
 
-void reach_glossy(const VplPlanes& lights, const RangeParameters& p, std::uint32_t first, std::uint32_t step,
-                  std::uint32_t count, GlossyEmitter* emitters, BoundBlock& bounds) {
+void reach_glossy(const VplPlanes& lights, const RangeParameters& p, const SubsetPiece& piece, GlossyEmitter* emitters,
+                  BoundBlock& bounds) {
   const ViewFrame view = view_frame(p);
   for (int lane = 0; lane < 16; lane += kLanes) {
-    const Lanes lanes = lanes_of(first, step, static_cast<std::uint32_t>(lane), count);
+    const Lanes lanes = lanes_of(piece, static_cast<std::uint32_t>(lane));
     const real3 position = gather3(lights.position, lanes), normal = gather3(lights.normal, lanes);
     const real3 geometric_normal = gather3(lights.geometric_normal, lanes), incident = gather3(lights.incident, lanes);
     const real3 flux = gather3(lights.flux, lanes), f0 = gather3(lights.f0, lanes);
     const real f90 = gather1(lights.f90, lanes), alpha = gather1(lights.ggx_alpha, lanes);
     // The second lobe takes the complement of the first one's bits: xi = 1 - xi, the least variance of the sum.
-    const real xi = xi_of(p, complement_bits(light_bits(p, lights.key, lanes, first % step, step, kDimensionVpl)));
+    const real xi = xi_of(p, complement_bits(light_bits(p, lights.key, lanes, piece, kDimensionVpl)));
     const GlossyLobe lobe = glossy_lobe(position, normal, incident, alpha);
-    const mask reaches = first_lanes(static_cast<std::uint32_t>(lanes_in_use(lane, count))) &&
+    const mask reaches = first_lanes(static_cast<std::uint32_t>(lanes_in_use(lane, piece.count))) &&
                          largest_channel(flux) * max(largest_channel(f0), f90) > 0.0f;
     store_bound(p, view, glossy_bound(p, lobe, flux, f0, f90, xi), position, geometric_normal, reaches, bounds, lane);
     SurfaceBrdf surface;
@@ -213,7 +212,7 @@ void reach_glossy(const VplPlanes& lights, const RangeParameters& p, std::uint32
     const Column3 c_flux(flux), c_f0(f0);
     const Column c_xi(xi), c_f90(f90), c_alpha_sq(fixed.alpha_sq), c_cos(fixed.cos_fixed), c_masking(fixed.masking);
     const Column c_disc(disc_of(p, gather1(lights.area, lanes)));
-    for (int i = 0; i < lanes_in_use(lane, count); ++i) {
+    for (int i = 0; i < lanes_in_use(lane, piece.count); ++i) {
       GlossyEmitter& e = emitters[lane + i];
       c_position.put(i, e.position), c_normal.put(i, e.normal), c_geometric.put(i, e.geometric_normal);
       c_incident.put(i, e.incident), c_flux.put(i, e.flux), c_f0.put(i, e.f0);
@@ -224,19 +223,19 @@ void reach_glossy(const VplPlanes& lights, const RangeParameters& p, std::uint32
   }
 }
 
-void reach_many(const ManyPlanes& lights, const RangeParameters& p, std::uint32_t first, std::uint32_t step,
-                std::uint32_t count, ManyEmitter* emitters, BoundBlock& bounds) {
+void reach_many(const ManyPlanes& lights, const RangeParameters& p, const SubsetPiece& piece, ManyEmitter* emitters,
+                BoundBlock& bounds) {
   const ViewFrame view = view_frame(p);
   for (int lane = 0; lane < 16; lane += kLanes) {
-    const Lanes lanes = lanes_of(first, step, static_cast<std::uint32_t>(lane), count);
+    const Lanes lanes = lanes_of(piece, static_cast<std::uint32_t>(lane));
     const real3 position = gather3(lights.position, lanes), axis = gather3(lights.axis, lanes);
     const real3 intensity = gather3(lights.intensity, lanes);
     const real scale = gather1(lights.scale, lanes), offset = gather1(lights.offset, lanes);
     const real two_sided = gather1(lights.two_sided, lanes), squared = gather1(lights.squared, lanes);
-    const real xi = xi_of(p, light_bits(p, lights.key, lanes, first % step, step, kDimensionMany));
+    const real xi = xi_of(p, light_bits(p, lights.key, lanes, piece, kDimensionMany));
     const real peak = peak_over_delta(p, intensity);
     const real reach = sqrt(peak / xi);
-    const mask reaches = first_lanes(static_cast<std::uint32_t>(lanes_in_use(lane, count))) && peak > 0.0f;
+    const mask reaches = first_lanes(static_cast<std::uint32_t>(lanes_in_use(lane, piece.count))) && peak > 0.0f;
     // One-sided emitters are Lambert lobes; others shine as far in all directions that they shine in.
     const mask lambert = scale > 0.0f && offset >= 0.0f && two_sided <= 0.0f;
     const mask one_sided = scale > 0.0f && offset <= 0.0f && two_sided <= 0.0f;
@@ -251,7 +250,7 @@ void reach_many(const ManyPlanes& lights, const RangeParameters& p, std::uint32_
     const Column3 c_position(position), c_axis(axis), c_intensity(intensity);
     const Column c_peak(peak), c_xi(xi), c_scale(scale), c_offset(offset), c_two(two_sided), c_squared(squared);
     const Column c_disc(disc_of(p, gather1(lights.area, lanes)));
-    for (int i = 0; i < lanes_in_use(lane, count); ++i) {
+    for (int i = 0; i < lanes_in_use(lane, piece.count); ++i) {
       ManyEmitter& e = emitters[lane + i];
       c_position.put(i, e.position), c_axis.put(i, e.axis), c_intensity.put(i, e.intensity);
       e.probability_scale = c_peak.lane[i], e.xi = c_xi.lane[i], e.disc = c_disc.lane[i];

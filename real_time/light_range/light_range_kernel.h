@@ -33,17 +33,22 @@ struct ManyPlanes {
   const std::uint32_t* key;
 };
 
-// Declares, in the namespace of one instruction set, what fills 16 neighbouring entries of a subset:
-//   first, step   lights first, first + step, ... of the planes
-//   count         how many of the 16 exist; the others get a bound that reaches nothing
-#define LUCIOLE_DECLARE_RANGE_KERNELS(isa)                                                                   \
-  namespace luciole::isa {                                                                                   \
-  void reach_diffuse(const VplPlanes& lights, const RangeParameters& parameters, std::uint32_t first,        \
-                     std::uint32_t step, std::uint32_t count, DiffuseEmitter* emitters, BoundBlock& bounds); \
-  void reach_glossy(const VplPlanes& lights, const RangeParameters& parameters, std::uint32_t first,         \
-                    std::uint32_t step, std::uint32_t count, GlossyEmitter* emitters, BoundBlock& bounds);   \
-  void reach_many(const ManyPlanes& lights, const RangeParameters& parameters, std::uint32_t first,          \
-                  std::uint32_t step, std::uint32_t count, ManyEmitter* emitters, BoundBlock& bounds);       \
+// Up to 16 neighbouring entries of a subset.
+struct SubsetPiece {
+  const std::uint32_t* lights;    // their indices in the planes
+  std::uint32_t count;            // 1 ... 16; entries beyond get a bound that reaches nothing
+  std::uint32_t subset, subsets;  // which of n^2
+};
+
+// Declares, in the namespace of one instruction set, what fills the entries of a piece.
+#define LUCIOLE_DECLARE_RANGE_KERNELS(isa)                                                                 \
+  namespace luciole::isa {                                                                                 \
+  void reach_diffuse(const VplPlanes& lights, const RangeParameters& parameters, const SubsetPiece& piece, \
+                     DiffuseEmitter* emitters, BoundBlock& bounds);                                        \
+  void reach_glossy(const VplPlanes& lights, const RangeParameters& parameters, const SubsetPiece& piece,  \
+                    GlossyEmitter* emitters, BoundBlock& bounds);                                          \
+  void reach_many(const ManyPlanes& lights, const RangeParameters& parameters, const SubsetPiece& piece,   \
+                  ManyEmitter* emitters, BoundBlock& bounds);                                              \
   }
 }  // namespace luciole
 LUCIOLE_DECLARE_RANGE_KERNELS(avx512)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Door: lights with this frame's random number and the volume that it lets them reach. One entry per lobe, ordered by
-// interleaving subset: light i of the pass's input stands in subset i mod n^2, ascending within it.
+// interleaving subset: a light stands in subset key mod n^2, in the order of the pass's input.
 #pragma once
 #include <cstdint>
 #include <vector>
