@@ -54,8 +54,10 @@ Scene rich_scene() {
   material.dielectric_f0 = {0.02f, 0.03f, 0.04f}, material.dielectric_f90 = 0.75f;
   scene.materials[1].dielectric_f0 = {0.08f, 0.08f, 0.08f}, scene.materials[1].dielectric_f90 = 1;
   scene.materials[2].name = scene.materials[1].name;
-  for (Mesh& mesh : scene.meshes) {  // the normal map's meshes need tangents
-    if (mesh.material == 0) mesh.tangents.assign(mesh.positions.size(), {1, 0, 0, -1});
+  for (Mesh& mesh : scene.meshes) {  // textures need coordinates, the normal map needs tangents
+    if (mesh.material != 0) continue;
+    for (const Vec3 p : mesh.positions) mesh.uv[0].push_back({p.x, p.y + p.z});
+    mesh.tangents.assign(mesh.positions.size(), {1, 0, 0, -1});
   }
   Mesh& mesh = scene.meshes[0];
   mesh.uv[1] = mesh.uv[0];

@@ -75,7 +75,8 @@ bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::is
 std::string fault_of(const Mesh& mesh, std::size_t materials) {
   const std::size_t count = mesh.positions.size();
   if (mesh.material >= materials) return "material out of range";
-  if (mesh.normals.size() != count || mesh.uv[0].size() != count) return "attributes differ in number";
+  if (mesh.normals.size() != count) return "normals differ in number";
+  if (!mesh.uv[0].empty() && mesh.uv[0].size() != count) return "texture coordinates differ in number";
   if (!mesh.tangents.empty() && mesh.tangents.size() != count) return "tangents differ in number";
   for (std::size_t i = 0; i < count; ++i) {
     if (!finite(mesh.positions[i])) return "position " + std::to_string(i) + " is not finite";

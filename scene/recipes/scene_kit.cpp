@@ -37,6 +37,10 @@ Material matte_material(std::string name, Vec3 albedo) {
 void add_mesh(Scene& scene, std::string name, std::uint32_t material, Mesh mesh) {
   mesh.name = std::move(name);
   mesh.material = material;
+  const Material& look = scene.materials[material];
+  const bool textured = look.base_colour_texture.texture >= 0 || look.metallic_roughness_texture.texture >= 0 ||
+                        look.normal_texture.texture >= 0 || look.emissive_texture.texture >= 0;
+  if (!textured) mesh.uv[0].clear();
   drop_unused_vertices(mesh);
   scene.meshes.push_back(std::move(mesh));
 }

@@ -17,6 +17,7 @@ Material dielectric_material(std::string name, Vec3 albedo, float ggx_alpha);
 // Scatters light evenly and reflects none (KHR_materials_specular factor 0).
 Material matte_material(std::string name, Vec3 albedo);
 
+// Leaves out what is not used: lone vertices, and texture coordinates where the material has no texture.
 void add_mesh(Scene& scene, std::string name, std::uint32_t material, Mesh mesh);
 
 struct Aim {
