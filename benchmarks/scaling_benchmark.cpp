@@ -45,17 +45,34 @@ Cost measure(const Stage& stage, std::uint32_t vpls, Ranges ranges) {
   return cost;
 }
 
-// Lights that a point in the plane of a disc full of N lights accepts: (1 + ln(x N)) / x with x = a R^2.
-double plane_law(double x, double lights) { return (1 + std::log(x * lights)) / x; }
-
-// The x for which `lights` lights give `accepted`; the law falls with x from x N = 1 on.
-double fit_plane_law(double lights, double accepted) {
-  double low = 1 / lights, high = 1e6;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = std::sqrt(low * high);
-    (plane_law(middle, lights) > accepted ? low : high) = middle;
+// Lights that a point at height h above a disc of radius R full of lights accepts, docs/mathematics.md:
+// s (N rho^2 + ln((1 + k) / (rho^2 + k)) / x), x = a R^2, k = (h / R)^2, rho the share of R inside which every light
+// is accepted, s the share of lights that face the point at all.
+struct PlaneLaw {
+  double x = 1, k = 1, share = 1;
+  double lights(double n) const {
+    const double rho_sq = std::clamp(1 / (x * n) - k, 0.0, 1.0);
+    return share * (n * rho_sq + std::log((1 + k) / (rho_sq + k)) / x);
   }
-  return low;
+};
+
+// The law with the least squared relative error, over a grid of x and k.
+PlaneLaw fit_law(const std::vector<Cost>& rows, double subsets) {
+  PlaneLaw best;
+  double least = 1e30;
+  for (double x = 1e-6; x < 10; x *= 1.1)
+    for (double k = 1e-6; k < 100; k *= 1.1) {
+      PlaneLaw law{x, k, 1};
+      double sum = 0, sum_sq = 0;
+      for (const Cost& row : rows) {
+        const double error = std::log(row.accepted * subsets / law.lights(row.lights));
+        sum += error, sum_sq += error * error;
+      }
+      const double n = static_cast<double>(rows.size()), spread = sum_sq - sum * sum / n;
+      if (spread >= least) continue;
+      least = spread, law.share = std::exp(sum / n), best = law;
+    }
+  return best;
 }
 
 double exponent(double from, double to, double light_ratio) {
@@ -68,24 +85,22 @@ void stochastic_table(const Stage& stage) {
       " its exponent | ranges ms | culling ms | shading ms | exponent of both |\n"
       "| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
   const double subsets = stage.settings.interleave * stage.settings.interleave;
-  Cost before;
-  double x = 0, law_before = 0;
-  for (std::uint32_t vpls = 1024; vpls <= 1048576; vpls *= 4) {
-    const Cost c = measure(stage, vpls, Ranges::stochastic);
-    if (before.lights == 0) x = fit_plane_law(c.lights, c.accepted * subsets);
-    const double law = plane_law(x, c.lights) / subsets, more = c.lights / std::max(before.lights, 1.0);
+  std::vector<Cost> rows;
+  for (std::uint32_t vpls = 1024; vpls <= 1048576; vpls *= 4) rows.push_back(measure(stage, vpls, Ranges::stochastic));
+  const PlaneLaw law = fit_law(rows, subsets);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Cost &c = rows[i], &before = rows[i > 0 ? i - 1 : 0];
+    const double more = c.lights / before.lights, by_law = law.lights(c.lights) / subsets;
     std::printf("| %.0f | %.2f | %.2f | %.2f | ", c.lights, c.listed, c.evaluated, c.accepted);
-    if (before.lights > 0) std::printf("%.2f", exponent(before.accepted, c.accepted, more));
-    std::printf(" | %.2f | ", law);
-    if (before.lights > 0) std::printf("%.2f", exponent(law_before, law, more));
+    if (i > 0) std::printf("%.2f", exponent(before.accepted, c.accepted, more));
+    std::printf(" | %.2f | ", by_law);
+    if (i > 0) std::printf("%.2f", exponent(law.lights(before.lights), law.lights(c.lights), more));
     std::printf(" | %.1f | %.1f | %.1f | ", c.ranges_ms, c.culling_ms, c.shading_ms);
-    if (before.lights > 0) {
-      std::printf("%.2f", exponent(before.culling_ms + before.shading_ms, c.culling_ms + c.shading_ms, more));
-    }
+    if (i > 0) std::printf("%.2f", exponent(before.culling_ms + before.shading_ms, c.culling_ms + c.shading_ms, more));
     std::printf(" |\n");
-    std::fflush(stdout);
-    before = c, law_before = law;
   }
+  std::printf("\nLaw: a R^2 = %.3g, h / R = %.3g, share of lights that face the point %.2g.\n", law.x, std::sqrt(law.k),
+              law.share);
 }
 
 void constant_table(const Stage& stage) {
@@ -115,8 +130,8 @@ int main(int argc, char** argv) {
   std::printf(
       "\nShot `%s` at 960x540, delta %g, %ux%u interleaved; means per pixel over both lobes, each pixel seeing\n"
       "its own subset of the lights. The exponent of a cost c is d ln c / d ln N between a row and the one\n"
-      "above. The law is (1 + ln(x N)) / x, for lights on a plane that holds the point, x fitted to the first\n"
-      "row; in closed rooms the cost ends in a constant, as no light comes nearer any more.\n",
+      "above. The law is that of lights on a plane at some height over the point, fitted to all rows: linear while\n"
+      "every light is accepted, then logarithmic, then a constant once no light is nearer than the nearest wall.\n",
       shot.c_str(), static_cast<double>(stage.settings.delta), stage.settings.interleave, stage.settings.interleave);
   stochastic_table(stage);
   constant_table(stage);
