@@ -8,20 +8,13 @@
 #include <tbb/task_arena.h>
 #include <xmmintrin.h>
 
+#include <algorithm>
 #include <atomic>
+#include <thread>
+#include <utility>
+#include <vector>
 
-#if defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define LUCIOLE_THREAD_SANITIZER
-#endif
-#endif
-#if defined(__SANITIZE_THREAD__) || defined(LUCIOLE_THREAD_SANITIZER)
-#include <sanitizer/tsan_interface.h>
-#else
-// TBB is not compiled with the thread sanitizer, so the sanitizer has to be told what a loop orders.
-#define __tsan_acquire(address) (void)(address)
-#define __tsan_release(address) (void)(address)
-#endif
+#include "base/thread_sanitizer.h"
 
 namespace luciole {
 namespace {
@@ -42,18 +35,51 @@ class DenormalsFlushed {
 
 }  // namespace
 
+#if defined(LUCIOLE_THREAD_SANITIZER)
+
+// Plain threads have the same freedom of order as TBB's, and the sanitizer sees all that happens (thread_sanitizer.h).
+namespace {
+std::atomic<int> thread_limit{0};
+thread_local bool inside_loop = false;
+}  // namespace
+
+void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+  const std::size_t step = std::max<std::size_t>(grain, 1);
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    const DenormalsFlushed scope;
+    const bool outer = std::exchange(inside_loop, true);
+    for (std::size_t begin = next.fetch_add(step); begin < count; begin = next.fetch_add(step)) {
+      body(begin, std::min(begin + step, count));
+    }
+    inside_loop = outer;
+  };
+  std::vector<std::thread> helpers;
+  for (int i = 1; i < thread_count() && !inside_loop && std::size_t(i) * step < count; ++i) helpers.emplace_back(work);
+  work();
+  for (std::thread& helper : helpers) helper.join();
+}
+
+void with_threads(int threads, const std::function<void()>& work) {
+  const int before = thread_limit.exchange(threads);
+  work();
+  thread_limit = before;
+}
+
+int thread_count() {
+  const int limit = thread_limit;
+  return limit > 0 ? limit : static_cast<int>(std::max(2u, std::thread::hardware_concurrency()));
+}
+
+#else
+
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
   if (count == 0) return;
-  [[maybe_unused]] char begun = 0, ended = 0;  // addresses to name the two orders by
-  __tsan_release(&begun);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain == 0 ? 1 : grain),
                     [&](const tbb::blocked_range<std::size_t>& range) {
-                      __tsan_acquire(&begun);
                       const DenormalsFlushed scope;
                       body(range.begin(), range.end());
-                      __tsan_release(&ended);
                     });
-  __tsan_acquire(&ended);
 }
 
 void with_threads(int threads, const std::function<void()>& work) {
@@ -65,6 +91,8 @@ void with_threads(int threads, const std::function<void()>& work) {
 }
 
 int thread_count() { return tbb::this_task_arena::max_concurrency(); }
+
+#endif
 
 void request_stop() { stop_flag.store(true, std::memory_order_relaxed); }
 bool stop_requested() { return stop_flag.load(std::memory_order_relaxed); }

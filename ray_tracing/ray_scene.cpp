@@ -8,6 +8,7 @@
 #include <mutex>
 #include <vector>
 
+#include "base/thread_sanitizer.h"
 #include "ray_tracing/alpha_filter.h"
 #include "ray_tracing/embree_version.h"
 #include "scene/surface.h"
@@ -61,8 +62,13 @@ namespace {
 std::string device_settings(const std::string& isa) {
   // No "threads=": in Embree that is a limit for all of TBB as long as the device lives. The build runs in the arena
   // that calls it, so with_threads holds for it too.
-  if (isa.empty()) return "";
-  return "isa=" + (isa == "baseline" ? std::string("sse2") : isa);
+#if defined(LUCIOLE_THREAD_SANITIZER)
+  const std::string threads = "threads=1";
+#else
+  const std::string threads;
+#endif
+  if (isa.empty()) return threads;
+  return "isa=" + (isa == "baseline" ? std::string("sse2") : isa) + (threads.empty() ? "" : "," + threads);
 }
 
 Error embree_error(RTCError code, const std::string& text) {

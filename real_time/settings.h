@@ -44,8 +44,8 @@ struct Settings {
   NearField near_field = NearField::disc;
   Filter filter = Filter::bilateral;
   std::uint32_t interleave = 8;  // 1, 2, 4 or 8: pixels split into n*n sub-regions, each sees 1/(n*n) of the lights
-  float delta = 0.001f;          // [TH17] Eq. 2, display units: p = min(E I / (delta l^2), 1); larger is faster, noisier
-  float exposure = 1.0f;         // E: display value per radiance
+  float delta = 0.001f;   // [TH17] Eq. 2, display units: p = min(E I / (delta l^2), 1); larger is faster, noisier
+  float exposure = 1.0f;  // E: display value per radiance
   bool stratified_ranges = false;  // random numbers stratified over the lights: steadier; independent ones else
   bool direct_shadows = false;     // one shadow ray per accepted punctual or emissive light
   bool jitter = false;             // camera samples and VPLs move per frame

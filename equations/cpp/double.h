@@ -9,9 +9,9 @@
 #define LUCIOLE_INSTANTIATING_EQUATIONS
 namespace luciole::f64 {
 using real = double;
+#include "equations/cpp/all_equations.inc"
 #include "equations/cpp/scalar_functions.inc"
 #include "equations/cpp/vector_types.inc"
-#include "equations/cpp/all_equations.inc"
 }  // namespace luciole::f64
 #undef LUCIOLE_INSTANTIATING_EQUATIONS
 #undef LUCIOLE_REAL

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cross bilateral filter over a gathered tile: lanes are pixels side by side. Per tap 14 operations of weight and 8
 // of accumulation against 12 loads, which take two slots each because nearly all straddle two cache lines: 11 cycles of
-// arithmetic beside 12 of loading. Sharing the loads between two rows of pixels is no faster (docs/decisions/filter.md).
+// arithmetic beside 12 of loading. Sharing the loads between two rows of pixels is no faster
+// (docs/decisions/filter.md).
 #include "real_time/filtering/filter_tile.h"
 
 #include "equations/cpp/wide.h"

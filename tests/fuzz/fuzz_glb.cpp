@@ -58,6 +58,7 @@ Bytes joined(Chunks chunks) {
 
 void mutate(Bytes& bytes, std::size_t room) {
   const std::size_t size = bytes.size();
+  if (size + room == 0) return;  // the library's mutations write to at least one byte
   bytes.resize(size + room);
   bytes.resize(LLVMFuzzerMutate(bytes.data(), size, size + room));
 }
