@@ -9,9 +9,12 @@
 #define LUCIOLE_INSTANTIATING_EQUATIONS
 namespace luciole::f64 {
 using real = double;
-#include "equations/cpp/all_equations.inc"
+// In the order of dependence, which is not that of the alphabet.
+// clang-format off
 #include "equations/cpp/scalar_functions.inc"
 #include "equations/cpp/vector_types.inc"
+#include "equations/cpp/all_equations.inc"
+// clang-format on
 }  // namespace luciole::f64
 #undef LUCIOLE_INSTANTIATING_EQUATIONS
 #undef LUCIOLE_REAL

@@ -7,7 +7,10 @@
 #define LUCIOLE_FN inline
 namespace luciole::f32 {
 using real = float;
+// In the order of dependence, which is not that of the alphabet.
+// clang-format off
 #include "equations/cpp/scalar_functions.inc"
 #include "equations/cpp/vector_types.inc"
+// clang-format on
 }  // namespace luciole::f32
 #undef LUCIOLE_FN

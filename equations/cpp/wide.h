@@ -16,8 +16,11 @@
 #define LUCIOLE_REAL(literal) real(static_cast<float>(literal))
 #define LUCIOLE_INSTANTIATING_EQUATIONS
 namespace luciole::LUCIOLE_ISA {
-#include "equations/cpp/all_equations.inc"
-#include "equations/cpp/vector_types.inc"
+// In the order of dependence, which is not that of the alphabet.
+// clang-format off
 #include "equations/cpp/wide_types.inc"
+#include "equations/cpp/vector_types.inc"
+#include "equations/cpp/all_equations.inc"
+// clang-format on
 }  // namespace luciole::LUCIOLE_ISA
 #undef LUCIOLE_INSTANTIATING_EQUATIONS
