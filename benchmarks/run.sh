@@ -114,14 +114,18 @@ memory() {
   done
 }
 
-# Cycles per light and 16 pixels that the ports of the inner loops need: lines "NAME CYCLES".
+# Cycles per light and 16 pixels that the ports of the inner loops need, and what llvm-mca expects with latencies and
+# the length of the queues: lines "NAME CYCLES" and "simulated_NAME CYCLES".
 port_bounds() {
   local compiler mca=$1
   compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[^=]*=//p' "$build/CMakeCache.txt")
   "$compiler" -std=c++20 -O3 -fPIC -I. -mavx512f -mavx512dq -mavx512vl -mavx512bw -mavx2 -mfma -w -S \
     benchmarks/marked_loops.cpp -o "$work/loops.s"
   "$mca" -mcpu=icelake-server "$work/loops.s" 2> /dev/null |
-    awk '/Code Region - / { name = $NF } /Block RThroughput/ { print name, $NF }'
+    awk '/Code Region - / { name = $NF }
+         /Iterations:/ { iterations = $NF }
+         /Total Cycles:/ { print "simulated_" name, $NF / iterations }
+         /Block RThroughput/ { print name, $NF }'
 }
 
 kernel() {
