@@ -36,7 +36,7 @@ struct FrameStatistics {
 struct Frame {
   std::uint32_t width = 0, height = 0;
   std::vector<Vec3> picture;  // linear radiance, exposure not applied
-  Image layers;               // the layers that were asked for, and the picture
+  Image layers;               // the layers that were asked for
   FrameStatistics statistics;
 };
 

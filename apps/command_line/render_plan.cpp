@@ -13,7 +13,7 @@
 namespace luciole {
 namespace {
 
-// Roughly what a frame holds, per pixel and per light, measured on large frames and rounded up.
+// Roughly what a frame holds, counted from its planes and lists and rounded up.
 Status check_memory(const Settings& settings, const RenderOptions& options) {
   constexpr double kBytesPerPixel = 500, kBytesPerLayer = 40, kBytesPerVpl = 400;
   const double pixels = double(settings.width) * settings.height;

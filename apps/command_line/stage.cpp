@@ -87,7 +87,8 @@ std::vector<std::string> left_out(const Scene& scene, const PrimaryLights& prima
     directional += scene.lights[index].kind == PunctualLight::Kind::directional;
   }
   if (directional == 0) return {};
-  return {std::to_string(directional) + " directional light(s) of the scene are not primary and stay dark."};
+  return {std::to_string(directional) +
+          " directional light(s) of the scene are not primary: they shine directly, with shadows, but not indirectly."};
 }
 
 Result<Environment> read_environment(const std::filesystem::path& path) {
