@@ -17,7 +17,7 @@
 #include "base/parallel.h"
 #include "benchmarks/hand_written_kernel.h"
 #include "benchmarks/listed_groups.h"
-#include "real_time/kernels.h"
+#include "base/isa.h"
 
 #if defined(LUCIOLE_OTHER_COMPILER)
 namespace luciole::other_compiler {

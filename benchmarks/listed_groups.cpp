@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "real_time/kernels.h"
+#include "base/isa.h"
 #include "real_time/light_range/light_range.h"
 #include "real_time/shading/tile_worker.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "base/result.h"
+#include "base/isa.h"
 
 namespace luciole {
 
@@ -32,7 +32,6 @@ enum class NearField : std::uint8_t {
   point  // 1/l^2
 };
 enum class Filter : std::uint8_t { bilateral, none };
-enum class Isa : std::uint8_t { automatic, avx512, avx2, baseline };
 
 struct Settings {
   std::uint32_t width = 1280, height = 720;  // [pixels]
@@ -61,9 +60,5 @@ std::string to_string(Culling);
 std::string to_string(Ranges);
 std::string to_string(NearField);
 std::string to_string(Filter);
-std::string to_string(Isa);
-
-// The fastest instruction set of this processor, or the one asked for; failed if the processor lacks it.
-Result<Isa> choose_isa(Isa wanted);
 
 }  // namespace luciole

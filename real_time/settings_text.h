@@ -4,16 +4,13 @@
 #pragma once
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "base/result.h"
+#include "base/setting_table.h"
 #include "real_time/settings.h"
 
 namespace luciole {
-
-// A setting and its value as a user writes them, for example {"tile_test", "paper"}.
-using SettingText = std::pair<std::string, std::string>;
 
 // Names in the order of `Settings`: size, vpls, bounds, tile_test, ... Words are joined by underscores.
 const std::vector<std::string>& setting_names();

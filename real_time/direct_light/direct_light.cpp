@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "real_time/direct_light/direct_light_kernel.h"
-#include "real_time/kernels.h"
+#include "base/isa.h"
 
 namespace luciole {
 namespace {

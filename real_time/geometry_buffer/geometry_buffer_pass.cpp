@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "equations/cpp/float.h"
 #include "real_time/fold_seed.h"
-#include "real_time/geometry_buffer/sky.h"
+#include "scene/sky.h"
 #include "scene/surface.h"
 
 namespace luciole {

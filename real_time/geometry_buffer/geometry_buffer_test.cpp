@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "real_time/front_test_scene.h"
 #include "real_time/geometry_buffer/geometry_buffer_pass.h"
-#include "real_time/geometry_buffer/sky.h"
+#include "scene/sky.h"
 
 namespace luciole {
 namespace {

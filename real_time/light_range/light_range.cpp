@@ -6,7 +6,7 @@
 #include "base/parallel.h"
 #include "equations/cpp/float.h"
 #include "real_time/fold_seed.h"
-#include "real_time/kernels.h"
+#include "base/isa.h"
 
 namespace luciole {
 namespace {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene/punctual_light.h"
 #include "scene/scene.h"
 
 namespace luciole {
@@ -18,14 +19,6 @@ std::vector<std::uint32_t> other_lights(const Scene&, const PrimaryLights&);
 // Flux of a light into the scene [W], luminance of its colour: what VPLs are shared by. A sun's is its irradiance
 // times the area of the rectangle round the scene's bounds, seen along its direction.
 float power(const PunctualLight&, const Bounds& scene_bounds);
-
-// Radiant intensity of a point or spot light [W/sr]; glTF's squared ramp between a spot's cones (KHR_lights_punctual).
-//   direction  unit, away from the light
-Vec3 intensity_towards(const PunctualLight&, Vec3 direction);
-
-// Width of a spot's ramp, cos_inner - cos_outer, at least a millionth of the cone's 1 - cos_outer: a hard edge divides
-// by it too.
-float ramp_width(const PunctualLight& spot);
 
 // The rectangle round the scene's bounds, perpendicular to a sun's direction, through which its light enters.
 struct SunRectangle {

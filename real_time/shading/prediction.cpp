@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
-#include "real_time/kernels.h"
+#include "base/isa.h"
 #include "real_time/light_culling/tile.h"
 #include "real_time/shading/predict_kernel.h"
 

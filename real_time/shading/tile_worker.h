@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "real_time/kernels.h"
+#include "base/isa.h"
 #include "real_time/light_culling/cull_kernel.h"
 #include "real_time/light_culling/tile.h"
 #include "real_time/shading/shade_kernel.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "real_time/geometry_buffer/sky.h"
+#include "scene/sky.h"
 
 namespace luciole {
 namespace {

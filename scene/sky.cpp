@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "real_time/geometry_buffer/sky.h"
+#include "scene/sky.h"
 
 #include <algorithm>
 #include <cmath>
