@@ -115,10 +115,9 @@ SettingEntry<Settings> size_entry() {
     settings.width = width, settings.height = height;
     return true;
   };
-  return {"size", "picture size, WIDTHxHEIGHT [pixels]", "WIDTHxHEIGHT with sides from 1 to 16384", set,
-          [](const Settings& settings) {
-            return std::to_string(settings.width) + "x" + std::to_string(settings.height);
-          }};
+  return {
+      "size", "picture size, WIDTHxHEIGHT [pixels]", "WIDTHxHEIGHT with sides from 1 to 16384", set,
+      [](const Settings& settings) { return std::to_string(settings.width) + "x" + std::to_string(settings.height); }};
 }
 
 template <class Settings>

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Door: what samples add up to. Sums are whole numbers, so that adding is associative: any split of the samples into
+// parts, threads or sessions gives the same bits.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/vector.h"
+#include "image/image.h"
+
+namespace luciole {
+
+// One sample of one pixel.
+struct FilmSample {
+  Vec3 radiance;  // [W/(m^2 sr)]
+  Vec3 albedo;    // of the first surface, as denoisers expect it; sky: 0
+  Vec3 normal;    // shading normal of the first surface, world space; sky: 0
+};
+
+// Samples first ... end - 1 of every pixel.
+struct SampleRange {
+  std::uint64_t first = 0, end = 0;
+  std::uint64_t count() const { return end - first; }
+  friend bool operator==(const SampleRange&, const SampleRange&) = default;
+};
+
+class Film {
+ public:
+  // Sums per pixel: radiance and its square per channel (RGB), albedo (RGB), normal (XYZ).
+  static constexpr std::size_t kSums = 12;
+  using Pixel = std::array<std::int64_t, kSums>;
+
+  // exposure: display value per radiance. Sums count steps of 2^-28 display units (squares 2^-20), whatever the
+  // exposure is; a single sample saturates at 2^30 display units, which is counted.
+  Film(std::uint32_t width, std::uint32_t height, float exposure, std::uint64_t first_sample = 0);
+
+  std::uint32_t width() const { return width_; }
+  std::uint32_t height() const { return height_; }
+  float exposure() const { return exposure_; }
+  SampleRange range() const { return range_; }
+  std::uint64_t saturated() const { return saturated_; }  // samples that were not finite or too bright
+  const std::vector<Pixel>& pixels() const { return pixels_; }
+
+  // One sample of every pixel, width * height of them: sample range().end.
+  void add(const std::vector<FilmSample>& samples);
+
+  // Another part of the same picture, whose samples follow or precede this one's. False, and nothing changed, if sizes
+  // or exposures differ, or the ranges leave a gap or overlap.
+  bool merge(const Film& other);
+
+  // The mean as "R", "G", "B"; layers by name: albedo, normal, variance (of the mean, per channel).
+  Image image(const std::vector<std::string>& layers = {}) const;
+  static const std::vector<std::string>& layer_names();
+
+  // sqrt of the estimated relMSE: mean over pixels of variance / (mean^2 + 0.01 (picture's mean)^2). Infinite below two
+  // samples.
+  double relative_error() const;
+
+  // For film_file.h: a film from its sums.
+  static Film from_sums(std::uint32_t width, std::uint32_t height, float exposure, SampleRange range,
+                        std::uint64_t saturated, std::vector<Pixel> pixels);
+
+ private:
+  std::uint32_t width_, height_;
+  float exposure_;
+  SampleRange range_;
+  std::uint64_t saturated_ = 0;
+  std::vector<Pixel> pixels_;
+};
+
+}  // namespace luciole
