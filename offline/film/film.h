@@ -28,18 +28,22 @@ struct SampleRange {
 class Film {
  public:
   // Sums per pixel: radiance and its square per channel (RGB), albedo (RGB), normal (XYZ).
-  static constexpr std::size_t kSums = 12;
+  static constexpr std::size_t kSums = 12, kRadiance = 0, kSquares = 3, kAlbedo = 6, kNormal = 9;
   using Pixel = std::array<std::int64_t, kSums>;
+  static constexpr double kLargestFeature = 16;  // of albedo and normal
+  static constexpr std::uint64_t kMostSamples = std::uint64_t(1) << 30;
 
-  // exposure: display value per radiance. Sums count steps of 2^-28 display units (squares 2^-20), whatever the
-  // exposure is; a single sample saturates at 2^30 display units, which is counted.
+  // exposure: display value per radiance. Sums count steps of 2^-28 (squares 2^-20) display units, whatever the
+  // exposure is; albedo and normal 2^-28, up to 16. A single sample is clipped at 2^30 display units and at 0 and
+  // dropped, as zero, where it is not finite: both are counted. A pixel whose samples sum to more than 2^35 display
+  // units stays there; one whose squares sum to more than 2^43 has no estimate of its variance but its bound, mean^2.
   Film(std::uint32_t width, std::uint32_t height, float exposure, std::uint64_t first_sample = 0);
 
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
   float exposure() const { return exposure_; }
   SampleRange range() const { return range_; }
-  std::uint64_t saturated() const { return saturated_; }  // samples that were not finite or too bright
+  std::uint64_t saturated() const { return saturated_; }  // samples that were clipped or dropped
   const std::vector<Pixel>& pixels() const { return pixels_; }
 
   // One sample of every pixel, width * height of them: sample range().end.
@@ -53,8 +57,8 @@ class Film {
   Image image(const std::vector<std::string>& layers = {}) const;
   static const std::vector<std::string>& layer_names();
 
-  // sqrt of the estimated relMSE: mean over pixels of variance / (mean^2 + 0.01 (picture's mean)^2). Infinite below two
-  // samples.
+  // sqrt of the estimated relMSE: mean over pixels and channels of variance / (mean^2 + 0.01 (picture's mean)^2).
+  // Infinite below two samples. What few samples have not met yet is not in it.
   double relative_error() const;
 
   // For film_file.h: a film from its sums.
