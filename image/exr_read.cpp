@@ -19,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMaxPixelBytes = std::uint64_t(4) << 30;
 // Deflate reaches 1,032 to one. Beyond that a small file could ask for gigabytes; constant pictures stay below.
 constexpr std::uint64_t kMaxCompressionRatio = 4096;
 constexpr std::uint64_t kSmallPicture = std::uint64_t(64) << 20;  // [bytes], allowed at any ratio
@@ -84,7 +83,7 @@ void check_prelude(const fs::path& path) {
   check_header_walk(bytes, bytes.size() == file_bytes);
 }
 
-void check_header(const Imf::Header& header, std::uint64_t file_bytes) {
+void check_header(const Imf::Header& header, std::uint64_t file_bytes, std::uint64_t max_bytes) {
   if (header.hasType() && header.type() != Imf::SCANLINEIMAGE) throw Refused("only flat scanline images are read");
   const auto& window = header.dataWindow();
   const auto width = std::int64_t(window.max.x) - window.min.x + 1;
@@ -101,7 +100,7 @@ void check_header(const Imf::Header& header, std::uint64_t file_bytes) {
   const std::uint64_t bytes =
       static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * channel_count * 4;
   if (channel_count == 0) throw Refused("it has no channels");
-  if (bytes > kMaxPixelBytes) throw Refused("its pixels take more than 4 GiB");
+  if (bytes > max_bytes) throw Refused("its pixels take more than " + std::to_string(max_bytes >> 30) + " GiB");
   if (bytes > kSmallPicture && bytes / kMaxCompressionRatio > file_bytes) {
     throw Refused("it is too short for the size that its header states");
   }
@@ -132,7 +131,7 @@ Image read_pixels(Imf::InputFile& file) {
 
 }  // namespace
 
-Result<Image> read_exr(const fs::path& path) {
+Result<Image> read_exr(const fs::path& path, std::uint64_t max_bytes) {
   const auto cannot_read = [&](const std::string& reason) {
     return Error{ErrorKind::failed, "cannot read " + path.string() + ": " + reason};
   };
@@ -144,7 +143,7 @@ Result<Image> read_exr(const fs::path& path) {
     // The library allocates tables by the header's height while it opens the file: it must know the limit before.
     Imf::Header::setMaxImageSize(static_cast<int>(kMaxImageSide), static_cast<int>(kMaxImageSide));
     Imf::InputFile file(path.c_str(), 0);
-    check_header(file.header(), fs::file_size(path));
+    check_header(file.header(), fs::file_size(path), max_bytes);
     return read_pixels(file);
   } catch (const std::bad_alloc&) {
     return Error{ErrorKind::out_of_memory, "out of memory while reading " + path.string()};

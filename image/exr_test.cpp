@@ -91,6 +91,17 @@ TEST(Exr, equal_images_are_equal_files_and_other_ones_are_not) {
   EXPECT_NE(bytes_of(first), bytes_of(second));
 }
 
+TEST(Exr, uncompressed_files_hold_the_same_picture) {
+  const fs::path zipped = kScratch / "zipped.exr", plain = kScratch / "plain.exr";
+  ASSERT_TRUE(write_exr(sample_image(), zipped).has_value());
+  ASSERT_TRUE(write_exr(sample_image(), plain, ExrCompression::none).has_value());
+  EXPECT_GT(fs::file_size(plain), fs::file_size(zipped));
+  const auto read = read_exr(plain);
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  EXPECT_EQ(read->channels, sample_image().channels);
+  EXPECT_EQ(read->metadata, sample_image().metadata);
+}
+
 TEST(Exr, says_that_its_primaries_are_those_of_rec_709) {
   const std::string bytes = sample_bytes();
   const std::string name("chromaticities\0chromaticities\0\x20\0\0\0", 34);

@@ -51,9 +51,9 @@ std::string objection(const Image& image) {
   return {};
 }
 
-Imf::Header header_of(const Image& image) {
+Imf::Header header_of(const Image& image, ExrCompression compression) {
   Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
-  header.compression() = Imf::ZIP_COMPRESSION;
+  header.compression() = compression == ExrCompression::zip ? Imf::ZIP_COMPRESSION : Imf::NO_COMPRESSION;
   header.lineOrder() = Imf::INCREASING_Y;
   Imf::addChromaticities(header, Imf::Chromaticities());  // OpenEXR's default primaries are those of Rec. 709
   for (const auto& [name, value] : image.metadata) {
@@ -78,14 +78,14 @@ Imf::FrameBuffer frame_buffer_of(const Image& image) {
 
 }  // namespace
 
-Status write_exr(const Image& image, const std::filesystem::path& path) {
+Status write_exr(const Image& image, const std::filesystem::path& path, ExrCompression compression) {
   if (const std::string reason = objection(image); !reason.empty()) return cannot_write(path, reason);
   auto file = OutputFile::create(path);
   if (!file) return file.error();
   try {
     FileStream stream(file->stream(), path.c_str());
     // Zero threads: compression in this thread, lines in order.
-    Imf::OutputFile output(stream, header_of(image), 0);
+    Imf::OutputFile output(stream, header_of(image, compression), 0);
     output.setFrameBuffer(frame_buffer_of(image));
     output.writePixels(static_cast<int>(image.height));
   } catch (const std::bad_alloc&) {

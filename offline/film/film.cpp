@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "offline/film/film.h"
 
+#include <emmintrin.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -24,7 +26,8 @@ constexpr auto kSquares = Film::kSquares, kAlbedo = Film::kAlbedo, kNormal = Fil
 // Sums of radiance never fall. One that is full stays full: min(a + b, full) is associative for a, b >= 0.
 std::int64_t add_up_to_full(std::int64_t a, std::int64_t b) { return a > kFull - b ? kFull : a + b; }
 
-std::int64_t steps(double value, double steps_per_unit) { return std::llrint(value * steps_per_unit); }
+// To nearest. The library's llrint is a call, because it may report errors.
+std::int64_t steps(double value, double steps_per_unit) { return _mm_cvtsd_si64(_mm_set_sd(value * steps_per_unit)); }
 
 // A component of albedo or normal. Their sums are signed and small: kMostSamples of any size fit.
 std::int64_t bounded_steps(float value) {
