@@ -18,7 +18,12 @@ struct PathStatistics {
   std::uint64_t paths = 0;          // camera rays
   std::uint64_t light_choices = 0;  // shading points that asked for a light
   std::uint64_t candidates = 0;     // lights that were weighed for them
-  std::uint64_t not_finite = 0;     // samples that were dropped
+
+  PathStatistics& operator+=(const PathStatistics& other) {
+    rays += other.rays, paths += other.paths;
+    light_choices += other.light_choices, candidates += other.candidates;
+    return *this;
+  }
 };
 
 class PathTracer {

@@ -27,20 +27,6 @@ SurfaceHit centre_of_part(std::uint32_t mesh, std::uint32_t triangle, float cell
   return {mesh, triangle, u / cells, (k + third) / cells};
 }
 
-Vec3 emission_at(const Scene& scene, const SurfaceHit& hit, float lod) {
-  const Mesh& mesh = scene.meshes[hit.mesh];
-  const Material& material = scene.materials[mesh.material];
-  const TextureSlot& slot = material.emissive_texture;
-  if (slot.texture < 0) return material.emission;
-  Vec2 uv(0, 0);
-  if (const std::vector<Vec2>& set = mesh.uv[slot.uv_set]; !set.empty()) {
-    const std::uint32_t* corner = &mesh.indices[std::size_t(hit.triangle) * 3];
-    uv = set[corner[0]] * (1 - hit.u - hit.v) + set[corner[1]] * hit.u + set[corner[2]] * hit.v;
-  }
-  const Vec4 texel = sample_texture(scene.textures[static_cast<std::size_t>(slot.texture)], slot.transform(uv), lod);
-  return material.emission * Vec3(texel.x, texel.y, texel.z);
-}
-
 // How many texels of the finest level a triangle covers.
 float texels_covered(const Scene& scene, const Mesh& mesh, const TextureSlot& slot, std::uint32_t triangle) {
   if (slot.texture < 0 || mesh.uv[slot.uv_set].empty()) return 1;
@@ -75,6 +61,21 @@ Vec3 mean_radiance(const Scene& scene, std::uint32_t mesh_index, std::uint32_t t
 }
 
 }  // namespace
+
+Vec3 emission_at(const Scene& scene, const SurfaceHit& hit, float level_of_detail) {
+  const Mesh& mesh = scene.meshes[hit.mesh];
+  const Material& material = scene.materials[mesh.material];
+  const TextureSlot& slot = material.emissive_texture;
+  if (slot.texture < 0) return material.emission;
+  Vec2 uv(0, 0);
+  if (const std::vector<Vec2>& set = mesh.uv[slot.uv_set]; !set.empty()) {
+    const std::uint32_t* corner = &mesh.indices[std::size_t(hit.triangle) * 3];
+    uv = set[corner[0]] * (1 - hit.u - hit.v) + set[corner[1]] * hit.u + set[corner[2]] * hit.v;
+  }
+  const Vec4 texel =
+      sample_texture(scene.textures[static_cast<std::size_t>(slot.texture)], slot.transform(uv), level_of_detail);
+  return material.emission * Vec3(texel.x, texel.y, texel.z);
+}
 
 std::vector<EmissiveTriangle> emissive_triangles(const Scene& scene) {
   std::vector<EmissiveTriangle> result;

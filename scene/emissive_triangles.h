@@ -6,6 +6,7 @@
 
 #include "base/vector.h"
 #include "scene/scene.h"
+#include "scene/surface.h"
 
 namespace luciole {
 
@@ -19,6 +20,10 @@ struct EmissiveTriangle {
 // In the order of meshes and triangles. Textures are averaged over 16 points, each at the level of detail of a
 // sixteenth of the triangle.
 std::vector<EmissiveTriangle> emissive_triangles(const Scene& scene);
+
+// Radiance that leaves a point of a triangle on its shining side, its texture at a level of detail; holes do not count
+// here.
+Vec3 emission_at(const Scene& scene, const SurfaceHit& hit, float level_of_detail);
 
 // Flux that leaves the triangle: pi * area * radiance per shining side [W].
 Vec3 power(const EmissiveTriangle& triangle);

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "offline/light_sample/culling_sampler.h"
+
+#include <algorithm>
+#include <bit>
+#include <numbers>
+
+#include "equations/cpp/float.h"
+#include "offline/light_sample/weighted_choice.h"
+
+namespace luciole {
+namespace {
+
+constexpr std::uint32_t kChunk = 256;  // lights that are weighed together
+
+Vec3 position_of(const Receiver& receiver) {
+  return {receiver.position[0], receiver.position[1], receiver.position[2]};
+}
+
+}  // namespace
+
+CullingSampler::CullingSampler(const LightSet& lights, const PathSettings& settings,
+                               const CullingParameters& parameters)
+    : lights_(lights),
+      settings_(settings),
+      parameters_(parameters),
+      weight_(settings.importance == Importance::printed ? Weight::printed : Weight::reflected),
+      tree_(lights, parameters.scene_diagonal) {}
+
+void CullingSampler::begin_pass(std::uint64_t pass) {
+  tree_.draw(settings_.seed, pass, settings_.range_samples, parameters_.radiance_floor);
+}
+
+template <class Use>
+void CullingSampler::for_each_overlapping(const Receiver& receiver, const Use& use) const {
+  const SphereTree tree = tree_.tree();
+  std::uint32_t lights[kChunk];
+  float weights[kChunk];
+  for (TreeWalk walk(tree); !walk.done();) {
+    const std::uint32_t count =
+        LUCIOLE_FOR_ISA(settings_.isa, overlapping_lights(tree, receiver.position, walk, lights, kChunk));
+    LUCIOLE_FOR_ISA(settings_.isa, weigh_lights(lights_.records().data(), lights, count, receiver, weight_,
+                                                parameters_.radiance_floor, weights));
+    use(lights, weights, count);
+  }
+}
+
+ChosenLight CullingSampler::choose(const Receiver& receiver, double u, ChoiceMemory& memory) const {
+  WeightedChoice choice(u);
+  for_each_overlapping(receiver, [&](const std::uint32_t* lights, const float* weights, std::uint32_t count) {
+    choice.add(lights, weights, count);
+  });
+  memory.total_weight = choice.total();
+  return choice.chosen();
+}
+
+float CullingSampler::weight_of(std::uint32_t light, const Receiver& receiver) const {
+  float weight = 0;
+  LUCIOLE_FOR_ISA(settings_.isa, weigh_lights(lights_.records().data(), &light, 1, receiver, weight_,
+                                              parameters_.radiance_floor, &weight));
+  return weight;
+}
+
+float CullingSampler::probability_to_overlap(std::uint32_t light, const LightPlace& place) const {
+  const float towards = lights_.records()[light].intensity * place.factor;
+  return f32::acceptance_probability(towards, parameters_.radiance_floor, place.distance_sq);
+}
+
+float CullingSampler::acceptance(std::uint32_t light, const LightPlace& place) const {
+  const float p = probability_to_overlap(light, place);
+  return p > tree_.xi(light) ? p : 0;
+}
+
+float CullingSampler::assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory,
+                                  const LightPlace& place, std::uint32_t /*random*/) const {
+  const float weight = weight_of(light, receiver);
+  if (!(weight > 0)) return 0;
+  const float p = probability_to_overlap(light, place);
+  if (settings_.range_samples == RangeNumbers::stratified) return p * weight / parameters_.stand_in_weight;
+  // The choice completed by the light, as if it had overlapped in any case: a light's own range then says nothing about
+  // the others that it was weighed against.
+  const float total = memory.total_weight + (tree_.overlaps(light, position_of(receiver)) ? 0 : weight);
+  return p * weight / std::max(total, weight);
+}
+
+float CullingSampler::error_bound() const {
+  return parameters_.radiance_floor * parameters_.exposure / (2 * std::numbers::pi_v<float>);  // delta = 2 pi eps
+}
+
+ChosenLight ListSampler::choose(const Receiver& receiver, double u, ChoiceMemory& memory) const {
+  const std::uint32_t k = settings_.list_length;
+  memory.overlapping = memory.listed = 0;
+  f32::RandomWords random =
+      f32::random_words(static_cast<std::uint32_t>(u * 0x1p32), 0, std::bit_cast<std::uint32_t>(receiver.position[0]),
+                        std::bit_cast<std::uint32_t>(receiver.position[1]));
+  for_each_overlapping(receiver, [&](const std::uint32_t* lights, const float* weights, std::uint32_t count) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      std::uint32_t place = memory.listed;
+      ++memory.overlapping;
+      if (memory.listed < k) {
+        ++memory.listed;
+      } else {
+        random = f32::random_words(random.first, 0, random.second, memory.overlapping);
+        place = static_cast<std::uint32_t>((std::uint64_t(random.first) * memory.overlapping) >> 32u);
+        if (place >= k) continue;
+      }
+      memory.light[place] = lights[i], memory.weight[place] = weights[i];
+    }
+  });
+  WeightedChoice choice(u);
+  choice.add(memory.light.data(), memory.weight.data(), memory.listed);
+  memory.total_weight = choice.total();
+  ChosenLight chosen = choice.chosen();
+  chosen.pmf *= std::min(static_cast<float>(k) / static_cast<float>(std::max(memory.overlapping, 1u)), 1.0f);
+  chosen.weighed = memory.overlapping;
+  return chosen;
+}
+
+// The list completed by the light: were it among the overlapping and in the list, another would have left a full list.
+float ListSampler::assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory,
+                               const LightPlace& place, std::uint32_t random) const {
+  const float weight = weight_of(light, receiver);
+  if (!(weight > 0)) return 0;
+  const auto k = static_cast<float>(settings_.list_length);
+  const float p = probability_to_overlap(light, place);
+  if (settings_.range_samples == RangeNumbers::stratified) return p * weight / parameters_.stand_in_weight;
+  const bool overlaps = tree_.overlaps(light, position_of(receiver));
+  const auto* end = memory.light.begin() + memory.listed;
+  const bool listed = overlaps && std::find(memory.light.begin(), end, light) != end;
+  const auto overlapping = static_cast<float>(memory.overlapping + (overlaps ? 0 : 1));
+  float total = memory.total_weight;
+  if (!listed) {
+    total += weight;
+    if (memory.listed == settings_.list_length) {
+      total -= memory.weight[(std::uint64_t(random) * memory.listed) >> 32u];
+    }
+  }
+  return p * std::min(k / overlapping, 1.0f) * weight / std::max(total, weight);
+}
+
+ClampedSampler::ClampedSampler(const LightSet& lights, const PathSettings& settings,
+                               const CullingParameters& parameters)
+    : CullingSampler(lights, settings, parameters) {
+  tree_.clamp_all(0.5f, parameters_.radiance_floor);
+}
+
+float ClampedSampler::acceptance(std::uint32_t light, const LightPlace& place) const {
+  return probability_to_overlap(light, place) > tree_.xi(light) ? 1 : 0;
+}
+
+float ClampedSampler::assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory,
+                                  const LightPlace& place, std::uint32_t /*random*/) const {
+  return acceptance(light, place) * weight_of(light, receiver) / std::max(memory.total_weight, 1e-30f);
+}
+
+}  // namespace luciole

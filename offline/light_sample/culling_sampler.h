@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stochastic light culling: the lights whose range of this pass holds the point, one of them by weight.   [TH16] sect.
+// 5
+#pragma once
+#include "offline/light_sample/light_sampler.h"
+#include "offline/light_tree/range_tree.h"
+
+namespace luciole {
+
+struct CullingParameters {
+  float radiance_floor = 0;   // delta / E [W/(m^2 sr)]
+  float exposure = 1;         // E, for the report of the error bound
+  float stand_in_weight = 0;  // C: mean total weight, for stratified ranges
+  float scene_diagonal = 0;   // [m]
+};
+
+// Weighs all lights that overlap.
+class CullingSampler : public LightSampler {
+ public:
+  CullingSampler(const LightSet& lights, const PathSettings& settings, const CullingParameters& parameters);
+
+  void begin_pass(std::uint64_t pass) override;
+  ChosenLight choose(const Receiver& receiver, double u, ChoiceMemory& memory) const override;
+  float acceptance(std::uint32_t light, const LightPlace& place) const override;
+  float assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory, const LightPlace& place,
+                    std::uint32_t random) const override;
+  std::uint64_t memory_bytes() const override { return tree_.memory_bytes(); }
+  float error_bound() const override;
+
+ protected:
+  float weight_of(std::uint32_t light, const Receiver& receiver) const;
+  // p, [TH17] Eq. 2 with the mean intensity of the channels.
+  float probability_to_overlap(std::uint32_t light, const LightPlace& place) const;
+  // Calls use(lights, weights, count) for all lights that overlap, in chunks.
+  template <class Use>
+  void for_each_overlapping(const Receiver& receiver, const Use& use) const;
+
+  const LightSet& lights_;
+  PathSettings settings_;
+  CullingParameters parameters_;
+  Weight weight_;
+  RangeTree tree_;
+};
+
+// Keeps k of them.   [TH16] Algorithm 3
+class ListSampler final : public CullingSampler {
+ public:
+  using CullingSampler::CullingSampler;
+  ChosenLight choose(const Receiver& receiver, double u, ChoiceMemory& memory) const override;
+  float assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory, const LightPlace& place,
+                    std::uint32_t random) const override;
+};
+
+// The rival of [TH16] Figs. 9 and 10: one constant range for all lights, and no division by a probability. Too dark.
+class ClampedSampler final : public CullingSampler {
+ public:
+  // As many lights as stochastic ranges accept at a light's average distance: every light as if its xi were 1/2.
+  ClampedSampler(const LightSet& lights, const PathSettings& settings, const CullingParameters& parameters);
+  void begin_pass(std::uint64_t) override {}
+  float acceptance(std::uint32_t light, const LightPlace& place) const override;
+  float assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory, const LightPlace& place,
+                    std::uint32_t random) const override;
+};
+
+}  // namespace luciole

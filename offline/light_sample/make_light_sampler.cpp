@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "offline/light_sample/make_light_sampler.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.h"
+#include "offline/light_sample/cone_tree.h"
+#include "offline/light_sample/culling_sampler.h"
+#include "offline/light_sample/exhaustive_sampler.h"
+#include "offline/light_sample/table_sampler.h"
+
+namespace luciole {
+namespace {
+
+// Lights accepted per surface point and pass. More are better chosen among and cost more: the least error in equal time
+// is flat between 16 and 48 (docs/results/light_choice.md).
+constexpr double kAccepted = 24;
+constexpr std::uint32_t kMostProbed = 4096;  // lights that the floor is fitted to
+
+// Unoccluded radiances I s / l^2, counted by size: eighths of octaves.
+struct Histogram {
+  static constexpr int kLowest = -126 * 8, kBuckets = 252 * 8;
+  std::array<std::uint64_t, kBuckets> count{};
+  std::array<double, kBuckets> sum{};
+
+  void add(float radiance) {
+    const int octave = static_cast<int>(std::floor(8 * std::log2(radiance)));
+    const auto bucket = static_cast<std::size_t>(std::clamp(octave - kLowest, 0, kBuckets - 1));
+    ++count[bucket];
+    sum[bucket] += radiance;
+  }
+  void add(const Histogram& other) {
+    for (std::size_t i = 0; i < kBuckets; ++i) count[i] += other.count[i], sum[i] += other.sum[i];
+  }
+};
+
+float unoccluded_radiance(const LightRecord& light, const Receiver& receiver) {
+  const Vec3 apart = light.centre() - Vec3(receiver.position[0], receiver.position[1], receiver.position[2]);
+  const Vec3 normal(receiver.geometric_normal[0], receiver.geometric_normal[1], receiver.geometric_normal[2]);
+  if (dot(apart, normal) + light.radius <= 0) return 0;
+  const float distance_sq = std::max({dot(apart, apart), light.radius * light.radius, 1e-20f});
+  return light.intensity * directional_factor(light, -dot(light.axis(), apart) / std::sqrt(distance_sq)) / distance_sq;
+}
+
+Histogram histogram_of(const LightSet& lights, const std::vector<Receiver>& receivers, std::uint32_t probed) {
+  constexpr std::size_t kGroup = 64;  // receivers per unit of work; their sums are added in order
+  std::vector<Histogram> parts((receivers.size() + kGroup - 1) / kGroup);
+  parallel_for(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t part = begin; part < end; ++part) {
+      for (std::size_t r = part * kGroup; r < std::min(receivers.size(), (part + 1) * kGroup); ++r) {
+        for (std::uint32_t k = 0; k < probed; ++k) {
+          const auto light = static_cast<std::uint32_t>(std::uint64_t(k) * lights.size() / probed);
+          const float radiance = unoccluded_radiance(lights.records()[light], receivers[r]);
+          if (radiance > 0) parts[part].add(radiance);
+        }
+      }
+    }
+  });
+  Histogram all;
+  for (const Histogram& part : parts) all.add(part);
+  return all;
+}
+
+float mean_total_weight(const LightSampler& sampler, const std::vector<Receiver>& receivers) {
+  double sum = 0;
+  ChoiceMemory memory;
+  for (const Receiver& receiver : receivers) {
+    sampler.choose(receiver, 0.5, memory);
+    sum += memory.total_weight;
+  }
+  return static_cast<float>(std::max(sum / static_cast<double>(std::max<std::size_t>(receivers.size(), 1)), 1e-30));
+}
+
+template <class Sampler>
+std::unique_ptr<LightSampler> culling(const SamplerInputs& in, CullingParameters parameters) {
+  if (in.settings.range_samples == RangeNumbers::stratified && in.settings.lights == LightChoice::culling) {
+    Sampler probe(in.lights, in.settings, parameters);
+    probe.begin_pass(~std::uint64_t(0));  // ranges that are not in the picture
+    parameters.stand_in_weight = mean_total_weight(probe, in.receivers);
+  }
+  return std::make_unique<Sampler>(in.lights, in.settings, parameters);
+}
+
+}  // namespace
+
+float fitted_radiance_floor(const LightSet& lights, const std::vector<Receiver>& receivers, double wanted) {
+  constexpr float kAlmostNone = 1e-20f;
+  const std::uint32_t probed = std::min(lights.size(), kMostProbed);
+  if (probed == 0 || receivers.empty()) return kAlmostNone;
+  const Histogram all = histogram_of(lights, receivers, probed);
+  const double scale = double(lights.size()) / (double(probed) * static_cast<double>(receivers.size()));
+  // From the brightest down: what lies above the floor is accepted, what lies below by its share of the floor.
+  double below = 0;
+  for (const double sum : all.sum) below += sum;
+  std::uint64_t above = 0;
+  for (int bucket = Histogram::kBuckets - 1; bucket >= 0; --bucket) {
+    const double floor = std::exp2((bucket + Histogram::kLowest) / 8.0);
+    above += all.count[static_cast<std::size_t>(bucket)], below -= all.sum[static_cast<std::size_t>(bucket)];
+    if ((static_cast<double>(above) + below / floor) * scale >= wanted) return static_cast<float>(floor);
+  }
+  return kAlmostNone;  // fewer lights than are wanted: all of them, always
+}
+
+std::unique_ptr<LightSampler> make_light_sampler(const SamplerInputs& in) {
+  switch (in.settings.lights) {
+    case LightChoice::uniform:
+      return std::make_unique<TableSampler>(in.lights, TableSampler::By::count);
+    case LightChoice::power:
+      return std::make_unique<TableSampler>(in.lights, TableSampler::By::flux);
+    case LightChoice::tree:
+      return std::make_unique<ConeTreeSampler>(in.lights, in.scene);
+    case LightChoice::exhaustive:
+      return std::make_unique<ExhaustiveSampler>(in.lights, in.settings.isa);
+    case LightChoice::culling:
+    case LightChoice::clamped:
+      break;
+  }
+  CullingParameters parameters;
+  parameters.exposure = in.settings.exposure, parameters.scene_diagonal = in.scene_diagonal;
+  // [TH16] Eq. 7: alpha_i = 2 pi eps / (E I_i); floor = alpha_i I_i.
+  parameters.radiance_floor = in.settings.error_bound > 0
+                                  ? 2 * std::numbers::pi_v<float> * in.settings.error_bound / in.settings.exposure
+                                  : fitted_radiance_floor(in.lights, in.receivers, kAccepted);
+  if (in.settings.lights == LightChoice::clamped) return culling<ClampedSampler>(in, parameters);
+  if (in.settings.resampling == Resampling::list) return culling<ListSampler>(in, parameters);
+  return culling<CullingSampler>(in, parameters);
+}
+
+}  // namespace luciole

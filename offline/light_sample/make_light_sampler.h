@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The registry: a name of the settings becomes a sampler.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "offline/light_sample/light_sampler.h"
+#include "offline/light_set/light_set.h"
+
+namespace luciole {
+
+struct SamplerInputs {
+  const Scene& scene;
+  const LightSet& lights;
+  const PathSettings& settings;            // isa resolved
+  const std::vector<Receiver>& receivers;  // surface points of paths traced ahead: what ranges are fitted to
+  float scene_diagonal;                    // [m]
+};
+
+// lights and scene must outlive the sampler.
+std::unique_ptr<LightSampler> make_light_sampler(const SamplerInputs& inputs);
+
+// The radiance floor that lets `wanted` lights be accepted at a receiver, on average.   [W/(m^2 sr)]
+float fitted_radiance_floor(const LightSet& lights, const std::vector<Receiver>& receivers, double wanted);
+
+}  // namespace luciole

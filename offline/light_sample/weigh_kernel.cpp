@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "offline/light_sample/weigh_kernel.h"
+
+#include "equations/cpp/wide.h"
+
+namespace luciole::LUCIOLE_ISA {
+#include "equations/cpp/wide_lists.inc"
+namespace {
+
+LUCIOLE_FN real3 broadcast(const float v[3]) { return real3(v[0], v[1], v[2]); }
+
+// Part of a smooth surface's mirror image that lies beside the mirrored centre: keeps a weight above 0 where the lobe
+// at the light's centre is black but its rim is not. What it misses multiple importance sampling finds.
+constexpr float kSpecularFloor = 0.02f;
+
+struct WideRecords {
+  real3 centre, axis;
+  real radius, intensity, scale, offset, two_sided, lamp;
+};
+
+LUCIOLE_FN WideRecords gather_records(const LightRecord* records, const std::uint32_t* lights) {
+  constexpr std::uint32_t kFloats = sizeof(LightRecord) / sizeof(float);
+  alignas(64) std::uint32_t first[kLanes];
+  for (int lane = 0; lane < kLanes; ++lane) first[lane] = lights[lane] * kFloats;
+  const auto member = [&](const float& of_first) { return gather(&of_first, first); };
+  const LightRecord& r = records[0];
+  WideRecords w;
+  w.centre = real3(member(r.x), member(r.y), member(r.z));
+  w.axis = real3(member(r.axis_x), member(r.axis_y), member(r.axis_z));
+  w.radius = member(r.radius), w.intensity = member(r.intensity);
+  w.scale = member(r.scale), w.offset = member(r.offset);
+  w.two_sided = member(r.two_sided), w.lamp = member(r.lamp);
+  return w;
+}
+
+// GGX reflection towards the light's centre, the lobe widened by the angle that the light fills, so that it does not
+// miss a light whose centre it misses.
+LUCIOLE_FN real specular_reflection(const Receiver& at, real3 normal, real3 to_light, real radius_sq_over_distance_sq) {
+  const real3 to_eye = broadcast(at.to_eye);
+  SurfaceBrdf brdf;
+  brdf.diffuse_albedo = real3(0.0f, 0.0f, 0.0f);
+  brdf.f0 = real3(at.f0, at.f0, at.f0), brdf.f90 = at.f90;
+  brdf.ggx_alpha = sqrt(min(real(at.ggx_alpha * at.ggx_alpha) + 0.25f * radius_sq_over_distance_sq, real(1.0f)));
+  return reflection(fix_direction(brdf, normal, to_eye), to_light).specular.x;
+}
+
+template <Weight weight>
+LUCIOLE_FN real weigh(const WideRecords& light, const Receiver& at, real radiance_floor) {
+  const real3 normal = broadcast(at.shading_normal);
+  const real3 apart = light.centre - broadcast(at.position);
+  const real distance_sq = max(dot(apart, apart), real(1e-30f));
+  const real inverse_distance = inverse_sqrt(distance_sq);
+  const real3 to_light = apart * inverse_distance;
+  const real near_sq = max(distance_sq, light.radius * light.radius);
+  const real cos_axis = real(0.0f) - dot(light.axis, to_light);
+  const real t =
+      clamp(max(cos_axis, (real(0.0f) - cos_axis) * light.two_sided) * light.scale + light.offset, 0.0f, 1.0f);
+  const real s = select(light.lamp > 0.0f, t * t, t);
+  // Of the point of the light's sphere that is highest above the surface: no light that peeps over the horizon is lost.
+  const real cos_highest =
+      min((dot(normal, apart) + light.radius) / (distance_sq * inverse_distance + light.radius), 1.0f);
+  const mask shines =
+      (s > 0.0f) && (cos_highest > 0.0f) && (dot(broadcast(at.geometric_normal), apart) + light.radius > 0.0f);
+  const real unoccluded = light.intensity * s * inverse(near_sq);
+  if constexpr (weight == Weight::printed) {
+    return select(shines, unoccluded * cos_highest, real(0.0f));
+  } else {
+    const real spread = light.radius * light.radius * inverse(near_sq);
+    const float matte = (at.diffuse + kSpecularFloor * (at.f0 + at.f90)) * 0.318309886f;
+    const real reflected = real(matte) * cos_highest + specular_reflection(at, normal, to_light, spread);
+    return select(shines, reflected * max(unoccluded, radiance_floor), real(0.0f));
+  }
+}
+
+template <Weight weight>
+void weigh_all(const LightRecord* records, const std::uint32_t* lights, std::uint32_t count, const Receiver& receiver,
+               float radiance_floor, float* weights) {
+  for (std::uint32_t first = 0; first < count; first += kLanes) {
+    alignas(64) std::uint32_t index[kLanes];
+    alignas(64) float out[kLanes];
+    const std::uint32_t left = count - first;
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) index[lane] = lights[first + (lane < left ? lane : 0)];
+    store(out, weigh<weight>(gather_records(records, index), receiver, radiance_floor));
+    for (std::uint32_t lane = 0; lane < kLanes && lane < left; ++lane) weights[first + lane] = out[lane];
+  }
+}
+
+}  // namespace
+
+void weigh_lights(const LightRecord* records, const std::uint32_t* lights, std::uint32_t count,
+                  const Receiver& receiver, Weight weight, float radiance_floor, float* weights) {
+  if (weight == Weight::printed) {
+    weigh_all<Weight::printed>(records, lights, count, receiver, radiance_floor, weights);
+  } else {
+    weigh_all<Weight::reflected>(records, lights, count, receiver, radiance_floor, weights);
+  }
+}
+
+}  // namespace luciole::LUCIOLE_ISA

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// One of many lights, with a probability proportional to its weight, while the lights still come in: a weighted
+// reservoir of one, that takes a chunk at a time and uses one random number in all.   [Chao 1982]
+#pragma once
+#include <cstdint>
+
+#include "offline/light_sample/light_sampler.h"
+
+namespace luciole {
+
+class WeightedChoice {
+ public:
+  explicit WeightedChoice(double u) : u_(u) {}
+
+  void add(const std::uint32_t* lights, const float* weights, std::uint32_t count) {
+    float chunk = 0;
+    for (std::uint32_t k = 0; k < count; ++k) chunk += weights[k];
+    weighed_ += count;
+    if (!(chunk > 0)) return;
+    total_ += chunk;
+    // The number that decided is stretched to (0,1) again, for what comes next.
+    const double share = double(chunk) / total_;
+    if (u_ >= share) {
+      u_ = (u_ - share) / (1 - share);
+      return;
+    }
+    u_ /= share;
+    double wanted = u_ * chunk;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      if (!(weights[k] > 0)) continue;
+      light_ = lights[k], weight_ = weights[k];  // the last one with weight, should rounding run past the end
+      if (wanted < weights[k]) break;
+      wanted -= weights[k];
+    }
+    u_ = wanted / weight_ < 1 ? wanted / weight_ : 0.5;
+  }
+
+  float total() const { return static_cast<float>(total_); }
+  ChosenLight chosen() const {
+    return {light_, light_ == kNoLight ? 0.0f : static_cast<float>(weight_ / total_), weighed_};
+  }
+
+ private:
+  double u_, total_ = 0;
+  std::uint32_t light_ = kNoLight, weighed_ = 0;
+  float weight_ = 0;
+};
+
+}  // namespace luciole

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ranges of all lights in one pass, and the tree of bounding spheres that finds those that overlap a point.
+//                                                                                    [TH16] sect. 5.2, Eqs. 3 and 7
+//
+// A light's order along a curve through space is made once. Ranges have a heavy tail, so that a tree over that order
+// alone would have giants in most branches: each pass stably deals the lights into octaves of range, the largest first,
+// and the tree stands on the dealt order. So a node holds lights of like range that are near each other, and one pass
+// costs a few operations per light. Lights that reach further than sixteen scenes are everywhere.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "base/aligned_vector.h"
+#include "offline/light_set/light_set.h"
+#include "offline/light_tree/overlap_kernel.h"
+#include "offline/settings.h"
+
+namespace luciole {
+
+class RangeTree {
+ public:
+  RangeTree() = default;
+  // lights must outlive the tree.
+  //   scene_diagonal  [m]
+  RangeTree(const LightSet& lights, float scene_diagonal);
+
+  // Draws new ranges. A light of intensity I overlaps a point at distance l with probability
+  // p = min(I s / (radiance_floor l^2), 1), s its directional factor.   [TH17] Eq. 2, [TH16] Eq. 1
+  //   radiance_floor  delta / E: light below it is subject to roulette   [W/(m^2 sr)]  > 0
+  void draw(std::uint64_t seed, std::uint64_t pass, RangeNumbers numbers, float radiance_floor);
+  // The rival: the same xi for every light and pass.
+  void clamp_all(float xi, float radiance_floor);
+
+  SphereTree tree() const;
+  float xi(std::uint32_t light) const { return xi_[light]; }
+  float radiance_floor() const { return radiance_floor_; }
+  // Whether the light's sphere holds the point: what the walk through the tree finds.
+  bool overlaps(std::uint32_t light, Vec3 point) const;
+  std::uint64_t memory_bytes() const;
+
+ private:
+  struct Sphere {
+    Vec3 centre;
+    float reach_sq;
+  };
+  static constexpr int kOctaves = 32;
+
+  Sphere sphere_of(std::uint32_t light) const;
+  int octave_of(std::uint32_t light) const;
+  float range_of(std::uint32_t light) const;
+  void rebuild();
+  void deal();
+  void build_level(std::uint32_t level);
+
+  const LightSet* lights_ = nullptr;
+  float scene_diagonal_ = 0, radiance_floor_ = 0;
+  int smallest_exponent_ = 0;  // of octave 0
+  std::vector<float> xi_;
+  std::vector<std::uint32_t> light_;  // by sphere of level 0
+  AlignedVector<SphereBlock> blocks_;
+  std::uint32_t levels_ = 0, first_block_[SphereTree::kMostLevels] = {}, block_count_[SphereTree::kMostLevels] = {};
+};
+
+}  // namespace luciole

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "offline/path/path_batch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "offline/light_sample/light_point.h"
+#include "scene/sky.h"
+#include "scene/surface.h"
+
+namespace luciole {
+namespace {
+
+constexpr float kFar = 1e30f;
+constexpr std::uint32_t kFirstRoulette = 3;  // scatterings before paths are ended at random
+
+float mean(Vec3 v) { return (v.x + v.y + v.z) * (1.0f / 3.0f); }
+bool is_black(Vec3 v) { return !(v.x > 0 || v.y > 0 || v.z > 0); }
+Vec3 point_of(const float v[3]) { return {v[0], v[1], v[2]}; }
+
+void copy(Vec3 from, float to[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
+
+// The balance heuristic: weight of a technique beside another one.   [Veach and Guibas 1995]
+float balance(float own, float other) { return own / (own + other); }
+
+// Pixels of a tile in the order of 4x4 blocks: one packet each.
+std::uint32_t block_x(std::uint32_t i) { return (i / 16 % 4) * 4 + i % 4; }
+std::uint32_t block_y(std::uint32_t i) { return (i / 64) * 4 + i / 4 % 4; }
+
+}  // namespace
+
+Receiver receiver_of(const SurfacePoint& point, Vec3 to_eye) {
+  Receiver receiver{};
+  copy(point.position, receiver.position);
+  copy(point.shading_normal, receiver.shading_normal);
+  copy(point.geometric_normal, receiver.geometric_normal);
+  copy(to_eye, receiver.to_eye);
+  receiver.diffuse = mean(point.diffuse_albedo), receiver.f0 = mean(point.f0), receiver.f90 = point.f90;
+  receiver.ggx_alpha = point.ggx_alpha;
+  return receiver;
+}
+
+void PathBatch::render(std::uint32_t left, std::uint32_t top, FilmSample* samples) {
+  begin(left, top);
+  statistics_.paths += active_.size();
+  const std::vector<std::uint32_t> all = active_;
+  for (std::uint32_t scattering = 0; scattering <= context_.settings.bounces && !active_.empty(); ++scattering) {
+    trace_all(scattering);
+    trace_shadow_rays();
+  }
+  for (const std::uint32_t index : all) {
+    const Path& path = paths_[index];
+    samples[path.pixel] = {path.radiance, path.albedo, path.normal};
+  }
+}
+
+void PathBatch::begin(std::uint32_t left, std::uint32_t top) {
+  active_.clear();
+  const PathSettings& settings = context_.settings;
+  const auto seed = static_cast<std::uint32_t>(settings.seed ^ (settings.seed >> 32u));
+  for (std::uint32_t i = 0; i < kPaths; ++i) {
+    const std::uint32_t x = left + block_x(i), y = top + block_y(i);
+    if (x >= settings.width || y >= settings.height) continue;
+    Path& path = paths_[i];
+    path.pixel = y * settings.width + x;
+    path.numbers = SampleSequence(seed, path.pixel, context_.sample);
+    const Vec2 place = path.numbers.pair(), lens = path.numbers.pair();
+    const CameraRay ray = context_.camera.ray(x, y, place, lens);
+    path.origin = ray.origin, path.direction = ray.direction;
+    path.throughput = {1, 1, 1};
+    path.radiance = path.albedo = path.normal = {0, 0, 0};
+    path.bsdf_pdf = 0;
+    active_.push_back(i);
+  }
+}
+
+void PathBatch::trace_all(std::uint32_t scattering) {
+  const Coherence coherence = scattering == 0 ? Coherence::coherent : Coherence::incoherent;
+  std::size_t kept = 0;
+  for (std::size_t first = 0; first < active_.size(); first += kPacketRays) {
+    const auto count = static_cast<int>(std::min<std::size_t>(kPacketRays, active_.size() - first));
+    RayPacket packet;
+    for (int lane = 0; lane < kPacketRays; ++lane) {
+      if (lane >= count) {
+        packet.skip(lane);
+        continue;
+      }
+      const Path& path = paths_[active_[first + static_cast<std::size_t>(lane)]];
+      packet.set(lane, path.origin, path.direction, 0, kFar);
+    }
+    statistics_.rays += static_cast<std::uint64_t>(count);
+    const HitPacket hits = context_.rays.intersect(packet, coherence);
+    for (int lane = 0; lane < count; ++lane) {
+      const std::uint32_t index = active_[first + static_cast<std::size_t>(lane)];
+      if (hits.mesh[lane] == kNoHit) {
+        add_sky(paths_[index]);
+        continue;
+      }
+      const SurfaceHit hit{hits.mesh[lane], hits.triangle[lane], hits.u[lane], hits.v[lane]};
+      if (arrive(paths_[index], hit, hits.distance[lane], scattering)) active_[kept++] = index;
+    }
+  }
+  active_.resize(kept);
+}
+
+bool PathBatch::arrive(Path& path, const SurfaceHit& hit, float distance, std::uint32_t scattering) {
+  // Textures at the camera's footprint where the eye sees them; behind a reflection at their finest, as shadow rays see
+  // emitters.
+  const float cone =
+      scattering == 0 ? context_.camera.pixel_size() * context_.camera.depth(path.direction, distance) : 0;
+  const SurfacePoint point = evaluate_surface(context_.rays.scene(), hit, path.direction, cone);
+  if (scattering == 0) {
+    path.albedo = point.diffuse_albedo + point.f0;
+    path.normal = point.shading_normal;
+  }
+  if (!is_black(point.emission)) add_emission(path, hit, point);
+  if (scattering == context_.settings.bounces) return false;
+  const Bsdf bsdf(point, -path.direction);
+  return scatter(path, point, bsdf, scattering);
+}
+
+bool PathBatch::scatter(Path& path, const SurfacePoint& point, const Bsdf& bsdf, std::uint32_t scattering) {
+  const auto index = static_cast<std::uint32_t>(&path - paths_.data());
+  path.from = receiver_of(point, -path.direction);
+  ask_finite_light(path, index, point, bsdf);
+  if (!context_.infinite.empty()) ask_infinite_light(path, index, point, bsdf);
+  const Vec2 place = path.numbers.pair(), lobe_and_roulette = path.numbers.pair();
+  const BsdfSample next = bsdf.sample(place, lobe_and_roulette.x);
+  if (!(next.pdf > 0)) return false;
+  path.throughput = path.throughput * next.weight;
+  if (scattering + 1 >= kFirstRoulette) {
+    const float survival = std::min(std::max({path.throughput.x, path.throughput.y, path.throughput.z}), 0.95f);
+    if (!(lobe_and_roulette.y < survival)) return false;
+    path.throughput = path.throughput / survival;
+  }
+  path.origin = context_.rays.offset_from_surface(point.position, point.geometric_normal);
+  path.direction = next.direction;
+  path.bsdf_pdf = next.pdf;
+  return true;
+}
+
+void PathBatch::add_sky(Path& path) const {
+  const Environment& sky = context_.rays.scene().environment;
+  const Vec3 radiance = sky_radiance(sky, path.direction);
+  if (is_black(radiance)) return;
+  const float weight = path.bsdf_pdf > 0 ? balance(path.bsdf_pdf, context_.infinite.sky_pdf(path.direction)) : 1.0f;
+  path.radiance += path.throughput * radiance * weight;
+}
+
+void PathBatch::add_emission(Path& path, const SurfaceHit& hit, const SurfacePoint& point) const {
+  float weight = 1;
+  const std::uint32_t light = context_.lights.light_of(hit.mesh, hit.triangle);
+  if (path.bsdf_pdf > 0 && light != kNoLight) {
+    const LightPoint seen = light_point_hit(context_.rays.scene(), context_.lights.records()[light],
+                                            point_of(path.from.position), path.direction, point.position);
+    if (seen.pdf > 0) {
+      const float pmf = context_.sampler.assumed_pmf(light, path.from, path.choice, seen.place, path.numbers.bits());
+      weight = balance(path.bsdf_pdf, pmf * seen.pdf);
+    }
+  }
+  path.radiance += path.throughput * point.emission * weight;
+}
+
+void PathBatch::ask_finite_light(Path& path, std::uint32_t index, const SurfacePoint& point, const Bsdf& bsdf) {
+  if (context_.lights.size() == 0) return;
+  const f32::RandomWords choice = path.numbers.pair_of_words();
+  const Vec2 place = path.numbers.pair();
+  const ChosenLight chosen = context_.sampler.choose(path.from, choice.first * 0x1p-32, path.choice);
+  ++statistics_.light_choices, statistics_.candidates += chosen.weighed;
+  if (chosen.light == kNoLight) return;
+  const LightRecord& record = context_.lights.records()[chosen.light];
+  const LightPoint light = sample_light_point(context_.rays.scene(), record, point.position, place);
+  if (!(light.pdf > 0) || is_black(light.radiance)) return;
+  const float acceptance = context_.sampler.acceptance(chosen.light, light.place);
+  if (!(acceptance > 0)) return;
+  const Vec3 reflected = bsdf.evaluate(light.direction);
+  if (is_black(reflected)) return;
+  float weight = 1;
+  if (record.lamp == 0) {
+    const float pmf = context_.sampler.assumed_pmf(chosen.light, path.from, path.choice, light.place, choice.second);
+    weight = balance(pmf * light.pdf, bsdf.pdf(light.direction));
+  }
+  const float density = chosen.pmf * acceptance * light.pdf;
+  const Vec3 end = record.lamp > 0 ? light.position : context_.rays.offset_from_surface(light.position, light.normal);
+  shadow_rays_.push_back({context_.rays.offset_from_surface(point.position, point.geometric_normal), end,
+                          path.throughput * reflected * light.radiance * (weight / density), index});
+}
+
+void PathBatch::ask_infinite_light(Path& path, std::uint32_t index, const SurfacePoint& point, const Bsdf& bsdf) {
+  const f32::RandomWords choice = path.numbers.pair_of_words();
+  const InfiniteLightSample light = context_.infinite.sample(choice.first * 0x1p-32, path.numbers.pair());
+  if (!(light.pdf > 0)) return;
+  const Vec3 reflected = bsdf.evaluate(light.direction);
+  if (is_black(reflected) || is_black(light.radiance)) return;
+  const float weight = light.is_sun ? 1.0f : balance(light.pdf, bsdf.pdf(light.direction));
+  const Vec3 origin = context_.rays.offset_from_surface(point.position, point.geometric_normal);
+  const float beyond = 2 * context_.rays.bounds().diagonal() + length(origin - context_.rays.bounds().centre());
+  shadow_rays_.push_back({origin, origin + light.direction * beyond,
+                          path.throughput * reflected * light.radiance * (weight / light.pdf), index});
+}
+
+void PathBatch::trace_shadow_rays() {
+  for (std::size_t first = 0; first < shadow_rays_.size(); first += kPacketRays) {
+    const auto count = static_cast<int>(std::min<std::size_t>(kPacketRays, shadow_rays_.size() - first));
+    RayPacket packet;
+    for (int lane = 0; lane < kPacketRays; ++lane) {
+      if (lane >= count) {
+        packet.skip(lane);
+        continue;
+      }
+      const ShadowRay& ray = shadow_rays_[first + static_cast<std::size_t>(lane)];
+      packet.set(lane, ray.origin, ray.towards - ray.origin, 0, 1);
+    }
+    const std::uint32_t blocked = context_.rays.occluded(packet, Coherence::incoherent);
+    for (int lane = 0; lane < count; ++lane) {
+      const ShadowRay& ray = shadow_rays_[first + static_cast<std::size_t>(lane)];
+      if ((blocked >> lane & 1u) == 0) paths_[ray.path].radiance += ray.light;
+    }
+  }
+  statistics_.rays += shadow_rays_.size();
+  shadow_rays_.clear();
+}
+
+}  // namespace luciole

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// The paths of one tile of pixels, all of them one scattering at a time: so that rays go in full packets and what is
+// done to each surface point stays in the cache.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "offline/film/film.h"
+#include "offline/light_sample/light_sampler.h"
+#include "offline/light_set/infinite_lights.h"
+#include "offline/path/bsdf.h"
+#include "offline/path/camera_rays.h"
+#include "offline/path/sample_sequence.h"
+#include "offline/render.h"
+#include "ray_tracing/ray_scene.h"
+
+namespace luciole {
+
+// What paths need to know; all of it constant within a pass.
+struct PathContext {
+  const RayScene& rays;
+  const LightSet& lights;
+  const InfiniteLights& infinite;
+  const LightSampler& sampler;
+  const CameraRays& camera;
+  const PathSettings& settings;
+  std::uint64_t sample = 0;
+};
+
+// Light sampled at a surface point, to be added if nothing is in its way.
+struct ShadowRay {
+  Vec3 origin, towards;  // [m]; blocked if something lies between them
+  Vec3 light;            // throughput included
+  std::uint32_t path;
+};
+
+class PathBatch {
+ public:
+  static constexpr std::uint32_t kSide = 16;  // pixels
+  static constexpr std::uint32_t kPaths = kSide * kSide;
+
+  explicit PathBatch(const PathContext& context) : context_(context), paths_(kPaths) {}
+
+  // Traces the paths of the tile at (left, top), as far as it lies in the picture, and writes their samples.
+  void render(std::uint32_t left, std::uint32_t top, FilmSample* samples);
+  const PathStatistics& statistics() const { return statistics_; }
+
+ private:
+  struct Path {
+    Vec3 origin, direction;  // of the ray to be traced
+    Vec3 throughput, radiance, albedo, normal;
+    SampleSequence numbers{0, 0, 0};
+    std::uint32_t pixel = 0;
+    // The surface point that the ray left; none for camera rays.
+    Receiver from;
+    ChoiceMemory choice;
+    float bsdf_pdf = 0;  // 0: camera ray, nothing else could have found what it hits
+  };
+
+  void begin(std::uint32_t left, std::uint32_t top);
+  void trace_all(std::uint32_t scattering);
+  // Each returns whether the path goes on.
+  bool arrive(Path& path, const SurfaceHit& hit, float distance, std::uint32_t scattering);
+  bool scatter(Path& path, const SurfacePoint& point, const Bsdf& bsdf, std::uint32_t scattering);
+
+  void add_sky(Path& path) const;
+  void add_emission(Path& path, const SurfaceHit& hit, const SurfacePoint& point) const;
+  void ask_finite_light(Path& path, std::uint32_t index, const SurfacePoint& point, const Bsdf& bsdf);
+  void ask_infinite_light(Path& path, std::uint32_t index, const SurfacePoint& point, const Bsdf& bsdf);
+  void trace_shadow_rays();
+
+  const PathContext& context_;
+  std::vector<Path> paths_;
+  std::vector<std::uint32_t> active_;  // paths that go on, in order
+  std::vector<ShadowRay> shadow_rays_;
+  PathStatistics statistics_;
+};
+
+// The surface point as samplers of lights see it.
+Receiver receiver_of(const SurfacePoint& point, Vec3 to_eye);
+
+}  // namespace luciole

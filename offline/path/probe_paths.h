@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Paths traced ahead of the first sample, for what is fitted to a scene: a function of scene, camera and settings.
+#pragma once
+#include <vector>
+
+#include "offline/light_sample/weigh_kernel.h"
+#include "offline/path/camera_rays.h"
+#include "ray_tracing/ray_scene.h"
+
+namespace luciole {
+
+// Up to 512 surface points that the camera sees, and with more than one bounce those that they see.
+std::vector<Receiver> probe_receivers(const RayScene& rays, const CameraRays& camera, const PathSettings& settings);
+
+// How far away the picture's centre is along the view [m]; the scene's size where nothing is.
+float distance_at_centre(const RayScene& rays, const Camera& camera);
+
+}  // namespace luciole
