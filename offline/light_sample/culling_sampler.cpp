@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numbers>
 
 #include "equations/cpp/float.h"
@@ -40,7 +41,7 @@ void CullingSampler::for_each_overlapping(const Receiver& receiver, const Use& u
     const std::uint32_t count =
         LUCIOLE_FOR_ISA(settings_.isa, overlapping_lights(tree, receiver.position, walk, lights, kChunk));
     LUCIOLE_FOR_ISA(settings_.isa, weigh_lights(lights_.records().data(), lights, count, receiver, weight_,
-                                                parameters_.radiance_floor, weights));
+                                                ranges_of_pass(), weights));
     use(lights, weights, count);
   }
 }
@@ -54,11 +55,14 @@ ChosenLight CullingSampler::choose(const Receiver& receiver, double u, ChoiceMem
   return choice.chosen();
 }
 
-float CullingSampler::weight_of(std::uint32_t light, const Receiver& receiver) const {
+float CullingSampler::weight_of(std::uint32_t light, const Receiver& receiver, const PassRanges& ranges) const {
   float weight = 0;
-  LUCIOLE_FOR_ISA(settings_.isa, weigh_lights(lights_.records().data(), &light, 1, receiver, weight_,
-                                              parameters_.radiance_floor, &weight));
+  LUCIOLE_FOR_ISA(settings_.isa, weigh_lights(lights_.records().data(), &light, 1, receiver, weight_, ranges, &weight));
   return weight;
+}
+
+bool CullingSampler::was_weighed(std::uint32_t light, const Receiver& receiver) const {
+  return tree_.overlaps(light, position_of(receiver)) && weight_of(light, receiver, ranges_of_pass()) > 0;
 }
 
 float CullingSampler::probability_to_overlap(std::uint32_t light, const LightPlace& place) const {
@@ -73,13 +77,13 @@ float CullingSampler::acceptance(std::uint32_t light, const LightPlace& place) c
 
 float CullingSampler::assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory,
                                   const LightPlace& place, std::uint32_t /*random*/) const {
-  const float weight = weight_of(light, receiver);
+  const float weight = weight_of(light, receiver, in_any_range());
   if (!(weight > 0)) return 0;
   const float p = probability_to_overlap(light, place);
   if (settings_.range_samples == RangeNumbers::stratified) return p * weight / parameters_.stand_in_weight;
   // The choice completed by the light, as if it had overlapped in any case: a light's own range then says nothing about
   // the others that it was weighed against.
-  const float total = memory.total_weight + (tree_.overlaps(light, position_of(receiver)) ? 0 : weight);
+  const float total = memory.total_weight + (was_weighed(light, receiver) ? 0 : weight);
   return p * weight / std::max(total, weight);
 }
 
@@ -95,6 +99,7 @@ ChosenLight ListSampler::choose(const Receiver& receiver, double u, ChoiceMemory
                         std::bit_cast<std::uint32_t>(receiver.position[1]));
   for_each_overlapping(receiver, [&](const std::uint32_t* lights, const float* weights, std::uint32_t count) {
     for (std::uint32_t i = 0; i < count; ++i) {
+      if (!(weights[i] > 0)) continue;
       std::uint32_t place = memory.listed;
       ++memory.overlapping;
       if (memory.listed < k) {
@@ -119,12 +124,12 @@ ChosenLight ListSampler::choose(const Receiver& receiver, double u, ChoiceMemory
 // The list completed by the light: were it among the overlapping and in the list, another would have left a full list.
 float ListSampler::assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory,
                                const LightPlace& place, std::uint32_t random) const {
-  const float weight = weight_of(light, receiver);
+  const float weight = weight_of(light, receiver, in_any_range());
   if (!(weight > 0)) return 0;
   const auto k = static_cast<float>(settings_.list_length);
   const float p = probability_to_overlap(light, place);
   if (settings_.range_samples == RangeNumbers::stratified) return p * weight / parameters_.stand_in_weight;
-  const bool overlaps = tree_.overlaps(light, position_of(receiver));
+  const bool overlaps = was_weighed(light, receiver);
   const auto* end = memory.light.begin() + memory.listed;
   const bool listed = overlaps && std::find(memory.light.begin(), end, light) != end;
   const auto overlapping = static_cast<float>(memory.overlapping + (overlaps ? 0 : 1));
@@ -148,9 +153,11 @@ float ClampedSampler::acceptance(std::uint32_t light, const LightPlace& place) c
   return probability_to_overlap(light, place) > tree_.xi(light) ? 1 : 0;
 }
 
+// A light that ends where its range does is not seen from farther away: nor by the rays of the BSDF.
 float ClampedSampler::assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory,
                                   const LightPlace& place, std::uint32_t /*random*/) const {
-  return acceptance(light, place) * weight_of(light, receiver) / std::max(memory.total_weight, 1e-30f);
+  if (!(acceptance(light, place) > 0)) return std::numeric_limits<float>::infinity();
+  return weight_of(light, receiver, in_any_range()) / std::max(memory.total_weight, 1e-30f);
 }
 
 }  // namespace luciole

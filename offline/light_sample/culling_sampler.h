@@ -28,7 +28,12 @@ class CullingSampler : public LightSampler {
   float error_bound() const override;
 
  protected:
-  float weight_of(std::uint32_t light, const Receiver& receiver) const;
+  // As kernels weigh it; with in_any_range() as if the light's range were infinite.
+  float weight_of(std::uint32_t light, const Receiver& receiver, const PassRanges& ranges) const;
+  PassRanges ranges_of_pass() const { return {tree_.xi(), parameters_.radiance_floor}; }
+  PassRanges in_any_range() const { return {nullptr, parameters_.radiance_floor}; }
+  // Whether the light was among those that this pass weighed for the receiver.
+  bool was_weighed(std::uint32_t light, const Receiver& receiver) const;
   // p, [TH17] Eq. 2 with the mean intensity of the channels.
   float probability_to_overlap(std::uint32_t light, const LightPlace& place) const;
   // Calls use(lights, weights, count) for all lights that overlap, in chunks.

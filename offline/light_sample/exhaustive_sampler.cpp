@@ -15,8 +15,8 @@ ExhaustiveSampler::ExhaustiveSampler(const LightSet& lights, Isa isa)
 
 void ExhaustiveSampler::weigh(const std::uint32_t* lights, std::uint32_t count, const Receiver& receiver,
                               float* weights) const {
-  LUCIOLE_FOR_ISA(isa_,
-                  weigh_lights(lights_.records().data(), lights, count, receiver, Weight::reflected, 0.0f, weights));
+  LUCIOLE_FOR_ISA(
+      isa_, weigh_lights(lights_.records().data(), lights, count, receiver, Weight::reflected, PassRanges{}, weights));
 }
 
 ChosenLight ExhaustiveSampler::choose(const Receiver& receiver, double u, ChoiceMemory& memory) const {

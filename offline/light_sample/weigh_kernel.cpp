@@ -12,13 +12,14 @@ LUCIOLE_FN real3 broadcast(const float v[3]) { return real3(v[0], v[1], v[2]); }
 // Part of a smooth surface's mirror image that lies beside the mirrored centre: keeps a weight above 0 where the lobe
 // at the light's centre is black but its rim is not. What it misses multiple importance sampling finds.
 constexpr float kSpecularFloor = 0.02f;
+constexpr float kRounding = 1 - 1e-4f;  // so that rounding never loses a light whose rim is in reach
 
 struct WideRecords {
   real3 centre, axis;
-  real radius, intensity, scale, offset, two_sided, lamp;
+  real radius, intensity, scale, offset, two_sided, lamp, xi;
 };
 
-LUCIOLE_FN WideRecords gather_records(const LightRecord* records, const std::uint32_t* lights) {
+LUCIOLE_FN WideRecords gather_records(const LightRecord* records, const std::uint32_t* lights, const float* xi) {
   constexpr std::uint32_t kFloats = sizeof(LightRecord) / sizeof(float);
   alignas(64) std::uint32_t first[kLanes];
   for (int lane = 0; lane < kLanes; ++lane) first[lane] = lights[lane] * kFloats;
@@ -30,6 +31,7 @@ LUCIOLE_FN WideRecords gather_records(const LightRecord* records, const std::uin
   w.radius = member(r.radius), w.intensity = member(r.intensity);
   w.scale = member(r.scale), w.offset = member(r.offset);
   w.two_sided = member(r.two_sided), w.lamp = member(r.lamp);
+  if (xi != nullptr) w.xi = gather(xi, lights);
   return w;
 }
 
@@ -50,6 +52,7 @@ LUCIOLE_FN real weigh(const WideRecords& light, const Receiver& at, real radianc
   const real3 apart = light.centre - broadcast(at.position);
   const real distance_sq = max(dot(apart, apart), real(1e-30f));
   const real inverse_distance = inverse_sqrt(distance_sq);
+  const real distance = distance_sq * inverse_distance;
   const real3 to_light = apart * inverse_distance;
   const real near_sq = max(distance_sq, light.radius * light.radius);
   const real cos_axis = real(0.0f) - dot(light.axis, to_light);
@@ -57,10 +60,14 @@ LUCIOLE_FN real weigh(const WideRecords& light, const Receiver& at, real radianc
       clamp(max(cos_axis, (real(0.0f) - cos_axis) * light.two_sided) * light.scale + light.offset, 0.0f, 1.0f);
   const real s = select(light.lamp > 0.0f, t * t, t);
   // Of the point of the light's sphere that is highest above the surface: no light that peeps over the horizon is lost.
-  const real cos_highest =
-      min((dot(normal, apart) + light.radius) / (distance_sq * inverse_distance + light.radius), 1.0f);
-  const mask shines =
-      (s > 0.0f) && (cos_highest > 0.0f) && (dot(broadcast(at.geometric_normal), apart) + light.radius > 0.0f);
+  const real cos_highest = min((dot(normal, apart) + light.radius) / (distance + light.radius), 1.0f);
+  // Can any point of the light be in reach, I s / l^2 > xi floor? Over a triangle s l, the distance to its plane, is
+  // the same for all points, and l is at least the centre's less the radius.
+  const real least = max(distance - light.radius, real(0.0f));
+  const mask in_reach =
+      light.intensity * s * distance > (light.xi * radiance_floor) * (kRounding * least) * (least * least);
+  const mask shines = in_reach && (s > 0.0f) && (cos_highest > 0.0f) &&
+                      (dot(broadcast(at.geometric_normal), apart) + light.radius > 0.0f);
   const real unoccluded = light.intensity * s * inverse(near_sq);
   if constexpr (weight == Weight::printed) {
     return select(shines, unoccluded * cos_highest, real(0.0f));
@@ -74,13 +81,13 @@ LUCIOLE_FN real weigh(const WideRecords& light, const Receiver& at, real radianc
 
 template <Weight weight>
 void weigh_all(const LightRecord* records, const std::uint32_t* lights, std::uint32_t count, const Receiver& receiver,
-               float radiance_floor, float* weights) {
+               const PassRanges& ranges, float* weights) {
   for (std::uint32_t first = 0; first < count; first += kLanes) {
     alignas(64) std::uint32_t index[kLanes];
     alignas(64) float out[kLanes];
     const std::uint32_t left = count - first;
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) index[lane] = lights[first + (lane < left ? lane : 0)];
-    store(out, weigh<weight>(gather_records(records, index), receiver, radiance_floor));
+    store(out, weigh<weight>(gather_records(records, index, ranges.xi), receiver, ranges.radiance_floor));
     for (std::uint32_t lane = 0; lane < kLanes && lane < left; ++lane) weights[first + lane] = out[lane];
   }
 }
@@ -88,11 +95,11 @@ void weigh_all(const LightRecord* records, const std::uint32_t* lights, std::uin
 }  // namespace
 
 void weigh_lights(const LightRecord* records, const std::uint32_t* lights, std::uint32_t count,
-                  const Receiver& receiver, Weight weight, float radiance_floor, float* weights) {
+                  const Receiver& receiver, Weight weight, const PassRanges& ranges, float* weights) {
   if (weight == Weight::printed) {
-    weigh_all<Weight::printed>(records, lights, count, receiver, radiance_floor, weights);
+    weigh_all<Weight::printed>(records, lights, count, receiver, ranges, weights);
   } else {
-    weigh_all<Weight::reflected>(records, lights, count, receiver, radiance_floor, weights);
+    weigh_all<Weight::reflected>(records, lights, count, receiver, ranges, weights);
   }
 }
 

@@ -19,6 +19,12 @@ struct Receiver {
   float ggx_alpha;
 };
 
+// The ranges of a pass.
+struct PassRanges {
+  const float* xi = nullptr;  // by light; nullptr: every light is in reach
+  float radiance_floor = 0;   // delta / E; 0: weights without culling   [W/(m^2 sr)]
+};
+
 enum class Weight : std::uint8_t {
   // Reflected light over the probability to overlap:  R max(I s / l^2, radiance_floor).  With p = I s / (floor l^2) < 1
   // this is R floor: lights that overlap by chance are all alike, but for the surface. With a floor of 0: no culling.
@@ -29,10 +35,10 @@ enum class Weight : std::uint8_t {
 
 #define LUCIOLE_DECLARE_WEIGH_KERNEL(isa)                                                                              \
   namespace isa {                                                                                                      \
-  /* weights[k]: of lights[k], 0 where the light cannot shine on the surface. Positive wherever any part of it can: */ \
-  /* else the estimate would miss it. */                                                                               \
+  /* weights[k]: of lights[k]. 0 where no part of the light is in reach or above the surface; positive wherever any */ \
+  /* part of it can shine on the surface: else the estimate would miss it. */                                          \
   void weigh_lights(const LightRecord* records, const std::uint32_t* lights, std::uint32_t count,                      \
-                    const Receiver& receiver, Weight weight, float radiance_floor, float* weights);                    \
+                    const Receiver& receiver, Weight weight, const PassRanges& ranges, float* weights);                \
   }
 LUCIOLE_DECLARE_WEIGH_KERNEL(avx512)
 LUCIOLE_DECLARE_WEIGH_KERNEL(avx2)

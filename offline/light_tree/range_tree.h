@@ -33,7 +33,7 @@ class RangeTree {
 
   SphereTree tree() const;
   float xi(std::uint32_t light) const { return xi_[light]; }
-  float radiance_floor() const { return radiance_floor_; }
+  const float* xi() const { return xi_.data(); }
   // Whether the light's sphere holds the point: what the walk through the tree finds.
   bool overlaps(std::uint32_t light, Vec3 point) const;
   std::uint64_t memory_bytes() const;
