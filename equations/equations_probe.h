@@ -7,7 +7,9 @@
 #include "equations/interleaving.h"
 #include "equations/paper_tile_test.h"
 #include "equations/random_number.h"
+#include "equations/shading_normal.h"
 #include "equations/stochastic_range.h"
+#include "equations/texture_level_of_detail.h"
 #include "equations/tight_bound.h"
 
 struct ProbeInput {
@@ -32,6 +34,8 @@ struct ProbeOutput {
   real box_distance_sq;  // of a tile
   real exact_distance_sq;
   real touches;  // bits: ours, paper's, exact, sphere, depth mask
+  real level_of_detail;
+  real shading_normal;  // along a direction
 };
 
 LUCIOLE_FN Tile probe_tile() {
@@ -78,6 +82,12 @@ LUCIOLE_FN ProbeOutput probe_tile_tests(ProbeOutput result, BoundingEllipsoid e)
   return result;
 }
 
+LUCIOLE_FN real probe_shading_normal(ProbeInput i) {
+  const real3 normal = real3(0.0f, 0.0f, 1.0f);
+  const real3 bent = mapped_normal(normal, i.outgoing, -1.0f, real3(i.f0, i.ggx_alpha, 0.9f), 0.2f);
+  return dot(kept_visible(bent, normal, i.incident), real3(0.3f, 0.4f, 2.0f));
+}
+
 LUCIOLE_FN ProbeOutput probe_equations(ProbeInput i) {
   ProbeOutput result;
   const uint_ bits = random_words(1u, 2u, i.index, 0u).first;
@@ -100,6 +110,8 @@ LUCIOLE_FN ProbeOutput probe_equations(ProbeInput i) {
   const BoundingEllipsoid tight = tight_ellipsoid(lobe, i.f0, 1.0f, threshold);
   result.tight_r_u = tight.r_u;
   result.tight_r_w = tight.r_w;
+  result.level_of_detail = texture_level_of_detail(1.0f, 65536.0f, i.ggx_alpha, abs(i.outgoing.z));
+  result.shading_normal = probe_shading_normal(i);
   return probe_tile_tests(result, tight);
 }
 

@@ -47,7 +47,8 @@ void main() { probe_outputs[gl_GlobalInvocationID.x] = probe_equations(probe_inp
   i.index = id.x;
   const ProbeOutput o = probe_equations(i);
   results[id.x] = o.xi + o.stratified_xi + o.specular + o.diffuse + o.probability + o.range_sq + o.spheroid_r_u +
-                  o.fitted_r_w + o.tight_r_u + o.tight_r_w + o.box_distance_sq + o.exact_distance_sq + o.touches;
+                  o.fitted_r_w + o.tight_r_u + o.tight_r_w + o.box_distance_sq + o.exact_distance_sq + o.touches +
+                  o.level_of_detail + o.shading_normal;
 }")
 
 # A reserved word or a type that only C++ knows must not pass unseen.

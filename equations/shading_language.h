@@ -9,7 +9,8 @@
 //   mask      bool             lane mask                       bool     bool
 //
 // Beyond the functions that GLSL has: select(mask, a, b), inverse(x) (approximate in wide code, to 2e-7), inverse_sqrt,
-// real_from_uint, uint_from_real (truncates), shift_left and shift_right (each lane by its own count).
+// real_from_uint, uint_from_real (truncates), shift_left and shift_right (each lane by its own count). log2 is for
+// normal positive numbers.
 //
 // C++ includes one of equations/cpp/float.h, double.h or wide.h, which define the types and read every header once in a
 // namespace of their own; shaders include the headers that they need. Constants that a float cannot hold exactly are

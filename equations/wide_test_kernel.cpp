@@ -17,8 +17,9 @@ void probe(const ProbeColumns& in, ProbeResults& out) {
     input.index = load(in.index + i);
     const ProbeOutput o = probe_equations(input);
     const real fields[ProbeResults::kFields] = {
-        o.xi,         o.stratified_xi, o.specular,  o.diffuse,         o.probability,       o.range_sq, o.spheroid_r_u,
-        o.fitted_r_w, o.tight_r_u,     o.tight_r_w, o.box_distance_sq, o.exact_distance_sq, o.touches};
+        o.xi,           o.stratified_xi,   o.specular,      o.diffuse,   o.probability,     o.range_sq,
+        o.spheroid_r_u, o.fitted_r_w,      o.tight_r_u,     o.tight_r_w, o.box_distance_sq, o.exact_distance_sq,
+        o.touches,      o.level_of_detail, o.shading_normal};
     for (int f = 0; f < ProbeResults::kFields; ++f) store(out.field[f] + i, fields[f]);
   }
 }

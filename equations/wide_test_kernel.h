@@ -11,7 +11,7 @@ struct ProbeColumns {
   alignas(64) std::uint32_t index[kCount];
 };
 struct ProbeResults {
-  static constexpr int kFields = 13;
+  static constexpr int kFields = 15;
   alignas(64) float field[kFields][ProbeColumns::kCount];  // in the order of ProbeOutput
 };
 

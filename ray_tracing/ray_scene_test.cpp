@@ -102,7 +102,8 @@ TEST(RayScene, a_ray_that_starts_on_a_large_slanted_triangle_misses_it) {
 std::shared_ptr<Scene> scene_with_hole(AlphaMode mode) {
   auto scene = scene_of({square(-3), square(-5)});
   auto image = std::make_shared<MipImage>();
-  image->levels = {{2, 1, {255, 255, 255, 0, 255, 255, 255, 255}}};
+  image->levels = {{2, 1, 0}};
+  image->rgba = {255, 255, 255, 0, 255, 255, 255, 255};
   image->has_alpha = true;
   Texture texture;
   texture.image = image;

@@ -109,7 +109,7 @@ const View& Renderer::State::view(std::uint64_t frame_index) {
   FrameStatistics times;
   PassTimer timer(times);
   const Vec2 sub_pixel = settings.jitter ? jittered_sub_pixel(settings.vpl_seed, frame_index) : Vec2(0.5f, 0.5f);
-  render_geometry_buffer({rays, camera, settings.width, settings.height, sub_pixel}, cached->geometry);
+  render_geometry_buffer({rays, camera, settings.width, settings.height, sub_pixel, settings.isa}, cached->geometry);
   timer.end("geometry_buffer");
   PrimaryLights lights = primaries;
   const PrimaryLights sky = sample_sky(rays.scene().environment,

@@ -5,6 +5,7 @@ luciole_room(real_time_front
     direct_light/direct_light.cpp
     geometry_buffer/geometry_buffer.cpp
     geometry_buffer/geometry_buffer_pass.cpp
+    geometry_buffer/pixel_block.cpp
     many_lights/many_lights.cpp
     reflective_shadow_map/cell_partition.cpp
     reflective_shadow_map/direction_maps.cpp

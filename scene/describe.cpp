@@ -29,8 +29,7 @@ std::string textures_in_words(const Scene& scene) {
   double megabytes = 0;
   for (const Texture& texture : scene.textures) {
     if (!images.insert(texture.image.get()).second) continue;
-    for (const MipImage::Level& level : texture.image->levels)
-      megabytes += static_cast<double>(level.rgba.size()) / 1e6;
+    megabytes += static_cast<double>(texture.image->rgba.size()) / 1e6;
   }
   return std::to_string(scene.textures.size()) + " of " + std::to_string(images.size()) + " images, " +
          number(megabytes) + " MB with mip levels";

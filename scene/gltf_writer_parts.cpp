@@ -228,7 +228,7 @@ std::optional<Bytes> encode_png(const MipImage& image) {
   png_write_info(png, info);
   for (std::size_t y = 0; y < level.height; ++y) {
     for (std::size_t x = 0; x < level.width; ++x) {
-      std::memcpy(&row[channels * x], &level.rgba[4 * (y * level.width + x)], channels);
+      std::memcpy(&row[channels * x], image.texels(level) + 4 * (y * level.width + x), channels);
     }
     png_write_row(png, row.data());
   }

@@ -12,7 +12,7 @@ namespace luciole {
 namespace {
 
 std::shared_ptr<const MipImage> pyramid_of(DecodedImage image, bool srgb) {
-  return std::make_shared<const MipImage>(build_mip_pyramid(std::move(image), srgb));
+  return std::make_shared<const MipImage>(build_mip_pyramid(image, srgb));
 }
 
 void answer(ImageRequest& request, TexelBudget& budget) {

@@ -44,11 +44,13 @@ struct Averager {
   const std::array<float, 256>& decode;
   bool srgb, weigh_by_alpha;
 
-  void average(const MipImage::Level& source, const Taps& columns, const Taps& rows, std::uint8_t* target) const {
+  // source: texels of a level, `width` per row
+  void average(const std::uint8_t* source, std::uint32_t width, const Taps& columns, const Taps& rows,
+               std::uint8_t* target) const {
     Vec3 colour{0, 0, 0}, visible_colour{0, 0, 0};
     float alpha = 0;
     for (std::uint32_t j = 0; j < rows.count; ++j) {
-      const std::uint8_t* texel = &source.rgba[(std::size_t(rows.first + j) * source.width + columns.first) * 4];
+      const std::uint8_t* texel = source + (std::size_t(rows.first + j) * width + columns.first) * 4;
       for (std::uint32_t i = 0; i < columns.count; ++i, texel += 4) {
         const float weight = rows.weight[j] * columns.weight[i];
         const float texel_alpha = kLinearFrom8[texel[3]];
@@ -68,30 +70,41 @@ struct Averager {
   std::uint8_t encode(float value) const { return srgb ? srgb8_from_linear(value) : linear8(value); }
 };
 
-MipImage::Level halved(const MipImage::Level& source, const Averager& averager) {
-  MipImage::Level level;
-  level.width = std::max(source.width / 2, 1u);
-  level.height = std::max(source.height / 2, 1u);
-  level.rgba.resize(std::size_t(level.width) * level.height * 4);
-  const std::vector<Taps> columns = halving_taps(source.width, level.width);
-  const std::vector<Taps> rows = halving_taps(source.height, level.height);
-  std::uint8_t* target = level.rgba.data();
-  for (std::uint32_t y = 0; y < level.height; ++y) {
-    for (std::uint32_t x = 0; x < level.width; ++x, target += 4) averager.average(source, columns[x], rows[y], target);
+// Sizes and places of all levels; returns how many texels they have together.
+std::size_t place_levels(std::uint32_t width, std::uint32_t height, std::vector<MipImage::Level>& levels) {
+  std::size_t texels = 0;
+  for (;; width = std::max(width / 2, 1u), height = std::max(height / 2, 1u)) {
+    levels.push_back({width, height, static_cast<std::uint32_t>(texels)});
+    texels += std::size_t(width) * height;
+    if (width == 1 && height == 1) return texels;
   }
-  return level;
+}
+
+void halve(const MipImage::Level& source, const MipImage::Level& half, const Averager& averager, std::uint8_t* rgba) {
+  const std::vector<Taps> columns = halving_taps(source.width, half.width);
+  const std::vector<Taps> rows = halving_taps(source.height, half.height);
+  const std::uint8_t* from = rgba + std::size_t(source.first_texel) * 4;
+  std::uint8_t* target = rgba + std::size_t(half.first_texel) * 4;
+  for (std::uint32_t y = 0; y < half.height; ++y) {
+    for (std::uint32_t x = 0; x < half.width; ++x, target += 4) {
+      averager.average(from, source.width, columns[x], rows[y], target);
+    }
+  }
 }
 
 }  // namespace
 
-MipImage build_mip_pyramid(DecodedImage image, bool srgb) {
+MipImage build_mip_pyramid(const DecodedImage& image, bool srgb) {
   MipImage pyramid;
   pyramid.srgb = srgb;
   for (std::size_t i = 3; i < image.rgba.size() && !pyramid.has_alpha; i += 4) pyramid.has_alpha = image.rgba[i] != 255;
-  pyramid.levels.push_back({image.width, image.height, std::move(image.rgba)});
+  const std::size_t texels = place_levels(image.width, image.height, pyramid.levels);
+  pyramid.rgba.reserve(texels * 4);
+  pyramid.rgba = image.rgba;
+  pyramid.rgba.resize(texels * 4);
   const Averager averager{srgb ? kLinearFromSrgb8 : kLinearFrom8, srgb, srgb && pyramid.has_alpha};
-  while (pyramid.levels.back().width > 1 || pyramid.levels.back().height > 1) {
-    pyramid.levels.push_back(halved(pyramid.levels.back(), averager));
+  for (std::size_t i = 1; i < pyramid.levels.size(); ++i) {
+    halve(pyramid.levels[i - 1], pyramid.levels[i], averager, pyramid.rgba.data());
   }
   return pyramid;
 }

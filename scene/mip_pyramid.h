@@ -10,6 +10,6 @@ namespace luciole {
 // that falls into the smaller texel. Colours of an sRGB image with alpha are weighted by alpha, so that the invisible
 // colour of cut-out texels does not bleed into leaves.
 //   srgb  the colour channels are sRGB-encoded
-MipImage build_mip_pyramid(DecodedImage image, bool srgb);
+MipImage build_mip_pyramid(const DecodedImage& image, bool srgb);
 
 }  // namespace luciole

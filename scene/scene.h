@@ -11,6 +11,7 @@
 #include "base/affine.h"
 #include "base/aligned_vector.h"
 #include "base/vector.h"
+#include "scene/texture_modes.h"
 
 namespace luciole {
 
@@ -19,15 +20,17 @@ namespace luciole {
 struct MipImage {
   struct Level {
     std::uint32_t width = 0, height = 0;
-    AlignedVector<std::uint8_t> rgba;  // width * height * 4; on huge pages: each row of a texture would be a page
+    std::uint32_t first_texel = 0;  // number of the level's first texel in rgba
   };
   std::vector<Level> levels;
+  // All levels, the finest first, four bytes per texel: in one piece, so that a texel of any level is found by its
+  // number, and on huge pages, as each row of a texture would be a page.
+  AlignedVector<std::uint8_t> rgba;
   bool srgb = false;       // colour channels are sRGB-encoded; alpha is always linear
   bool has_alpha = false;  // some texel has alpha < 255
-};
 
-enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
-enum class MipFilter : std::uint8_t { none, nearest, linear };
+  const std::uint8_t* texels(const Level& level) const { return rgba.data() + std::size_t(level.first_texel) * 4; }
+};
 
 struct Texture {
   std::string name;

@@ -61,7 +61,7 @@ class TextureLookUp {
     const MipImage::Level& finest = texture.image->levels[0];
     const float density = uv_area_per_area_[slot.uv_set] * std::abs(slot.a * slot.d - slot.b * slot.c);
     const float texels = static_cast<float>(finest.width) * static_cast<float>(finest.height);
-    const float lod = texture_level_of_detail(density, texels, cone_width_, cos_at_surface_);
+    const float lod = f32::texture_level_of_detail(density, texels, cone_width_, cos_at_surface_);
     return sample_texture(texture, slot.transform(uv_[slot.uv_set]), lod);
   }
 
@@ -90,26 +90,9 @@ Vec3 mapped_normal(const Material& material, const Mesh& mesh, const Corners& co
                    Vec3 normal) {
   if (material.normal_texture.texture < 0 || mesh.tangents.empty()) return normal;
   const Vec4 texel = textures.sample(material.normal_texture);
-  const float x = (2 * texel.x - 1) * material.normal_scale, y = (2 * texel.y - 1) * material.normal_scale;
   const Vec4 along = corners.mix(mesh.tangents);
-  // As in MikkTSpace the interpolated vectors are used as they are.
-  const Vec3 tangent(along.x, along.y, along.z);
-  const Vec3 bitangent = cross(normal, tangent) * (along.w < 0 ? -1.0f : 1.0f);
-  const Vec3 bent = tangent * x + bitangent * y + normal * std::max(2 * texel.z - 1, 0.0f);
-  const float size = length(bent);
-  return size > 1e-6f ? bent / size : normal;
-}
-
-// Bends a shading normal as little as needed, so that triangle and viewer both lie on its positive side; else the
-// pixel would be black where the interpolated surface turns away before the triangle does.
-Vec3 kept_visible(Vec3 normal, Vec3 geometric_normal, Vec3 to_viewer) {
-  constexpr float kLeastCosine = 0.01f;
-  const float cos_triangle = dot(normal, geometric_normal);
-  if (cos_triangle < kLeastCosine) normal = normal + geometric_normal * (kLeastCosine - cos_triangle);
-  const float cos_viewer = dot(normal, to_viewer);
-  // dot(to_viewer, geometric_normal) >= 0: this step does not undo the one before.
-  if (cos_viewer < kLeastCosine) normal = normal + to_viewer * (kLeastCosine - cos_viewer);
-  return normalize(normal);
+  return f32::mapped_normal(normal, Vec3(along.x, along.y, along.z), along.w < 0 ? -1.0f : 1.0f,
+                            Vec3(texel.x, texel.y, texel.z), material.normal_scale);
 }
 
 // Normal of the counter-clockwise side times twice the area.
@@ -122,14 +105,10 @@ void set_normals(const Material& material, const Mesh& mesh, const Corners& corn
                  Vec3 front_normal, Vec3 ray_direction, SurfacePoint& point) {
   point.geometric_normal = point.front ? front_normal : -front_normal;
   Vec3 normal = front_normal;
-  if (!mesh.normals.empty()) {
-    const Vec3 mixed = corners.mix(mesh.normals);
-    const float size = length(mixed);
-    if (size > 1e-6f) normal = mixed / size;
-  }
+  if (!mesh.normals.empty()) normal = f32::normalize_or(corners.mix(mesh.normals), front_normal);
   const bool towards_viewer = dot(normal, point.geometric_normal) >= 0;
   normal = mapped_normal(material, mesh, corners, textures, normal);
-  point.shading_normal = kept_visible(towards_viewer ? normal : -normal, point.geometric_normal, -ray_direction);
+  point.shading_normal = f32::kept_visible(towards_viewer ? normal : -normal, point.geometric_normal, -ray_direction);
 }
 
 void set_reflection(const Material& material, const TextureLookUp& textures, SurfacePoint& point) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "equations/cpp/float.h"
 #include "scene/gltf_test_files.h"
 #include "scene/srgb.h"
 #include "scene/surface.h"
@@ -70,7 +71,8 @@ TEST(TexturePicture, filters_are_what_the_sampler_says) {
 TEST(TexturePicture, wrap_modes_differ_beyond_the_border) {
   Texture texture;
   MipImage image;
-  image.levels.push_back({2, 1, {kBlackWhite.begin(), kBlackWhite.end()}});
+  image.levels.push_back({2, 1, 0});
+  image.rgba.assign(kBlackWhite.begin(), kBlackWhite.end());
   texture.image = std::make_shared<MipImage>(image);
   texture.magnify_linear = false;
   // u in halves of the image: -0.75 -0.25 | 0.25 0.75 | 1.25 1.75 2.25
@@ -93,7 +95,8 @@ TEST(TexturePicture, linear_filters_wrap_over_the_border) {
 TEST(TexturePicture, survives_any_coordinate) {
   Texture texture;
   MipImage image;
-  image.levels.push_back({2, 1, {kBlackWhite.begin(), kBlackWhite.end()}});
+  image.levels.push_back({2, 1, 0});
+  image.rgba.assign(kBlackWhite.begin(), kBlackWhite.end());
   texture.image = std::make_shared<MipImage>(image);
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
     texture.wrap_u = texture.wrap_v = wrap;
@@ -128,8 +131,8 @@ TEST(TexturePicture, mip_levels_average_light_not_codes) {
   const Scene scene = loaded(textured_square(2, 1, kBlackWhite, {{"minFilter", 9987}}));
   const MipImage& image = *scene.textures[0].image;
   ASSERT_EQ(image.levels.size(), 2u);
-  EXPECT_EQ(image.levels[1].rgba[0], 188);  // half of the light
-  EXPECT_NE(image.levels[1].rgba[0], 128);  // half of the codes would be a fifth of it
+  EXPECT_EQ(image.texels(image.levels[1])[0], 188);  // half of the light
+  EXPECT_NE(image.texels(image.levels[1])[0], 128);  // half of the codes would be a fifth of it
   // The square is 1 m wide and the image 2 x 1 texels: a cone of two metres sees the coarsest level, a thin one the
   // finest.
   EXPECT_NEAR(red_at(scene, 0.25f, 0.5f, 2.0f), 0.5f, 0.005f);
@@ -144,17 +147,18 @@ TEST(TexturePicture, odd_sides_keep_their_mean) {
   const Scene scene = loaded(file);
   for (const Texture& texture : scene.textures) {
     if (texture.image->srgb) continue;
-    ASSERT_EQ(texture.image->levels.size(), 3u);  // 7x5, 3x2, 1x1
-    EXPECT_NEAR(texture.image->levels[2].rgba[0], 17 * 7, 1);
+    const MipImage& image = *texture.image;
+    ASSERT_EQ(image.levels.size(), 3u);  // 7x5, 3x2, 1x1
+    EXPECT_NEAR(image.texels(image.levels[2])[0], 17 * 7, 1);
   }
 }
 
 TEST(TexturePicture, level_of_detail_follows_cone_distance_and_angle) {
   // 256 texels per metre: a cone of 1/64 m covers 4 of them, two octaves.
-  EXPECT_NEAR(texture_level_of_detail(1, 256 * 256, 1.0f / 64, 1), 2.0f, 1e-5f);
-  EXPECT_NEAR(texture_level_of_detail(1, 256 * 256, 1.0f / 64, 0.5f), 3.0f, 1e-5f);
-  EXPECT_NEAR(texture_level_of_detail(4, 256 * 256, 1.0f / 64, 1), 3.0f, 1e-5f);  // tiled twice each way
-  EXPECT_LT(texture_level_of_detail(1, 256 * 256, 0, 1), 0.0f);
+  EXPECT_NEAR(f32::texture_level_of_detail(1, 256 * 256, 1.0f / 64, 1), 2.0f, 1e-5f);
+  EXPECT_NEAR(f32::texture_level_of_detail(1, 256 * 256, 1.0f / 64, 0.5f), 3.0f, 1e-5f);
+  EXPECT_NEAR(f32::texture_level_of_detail(4, 256 * 256, 1.0f / 64, 1), 3.0f, 1e-5f);  // tiled twice each way
+  EXPECT_LT(f32::texture_level_of_detail(1, 256 * 256, 0, 1), 0.0f);
 }
 
 TEST(TexturePicture, alpha_masks_cut_holes_and_opaque_materials_do_not) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texture look-ups with explicit level of detail, and the one formula for that level that every pass uses. Called
-// several times per pixel: plain functions on values, single precision.
+// Texture look-ups with explicit level of detail (equations/texture_level_of_detail.h). Called several times per hit:
+// plain functions on values, single precision.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -11,23 +11,6 @@
 #include "scene/srgb.h"
 
 namespace luciole {
-
-// log2 of the footprint of a ray cone in texels of the finest level.
-// [AM19] Akenine-Moeller et al., "Texture Level of Detail Strategies for Real-Time Ray Tracing", Ray Tracing Gems
-// (2019), Eqs. 20.2, 20.3 and 20.34 with the two logarithms joined into one:
-//   1/2 log2(texels per area) + log2(width / |cos|)  =  1/2 log2(texels_per_area * (width / cos)^2)
-//   uv_area_per_area    area of a triangle in texture space over its area in the world   [1/m^2]  >= 0
-//   texel_count         width * height of the finest level                               [1]      >= 1
-//   cone_width          diameter of the cone at the hit; 0: the finest level             [m]
-//   cos_at_surface      |cosine| between ray and geometric normal                        [1]
-//   returns             <= 0 where the finest level is magnified
-inline float texture_level_of_detail(float uv_area_per_area, float texel_count, float cone_width,
-                                     float cos_at_surface) {
-  // At grazing incidence the footprint is long and thin; 1/32 keeps an isotropic look-up from blurring to one colour.
-  const float spread = cone_width / std::max(cos_at_surface, 1.0f / 32.0f);
-  const float footprint = uv_area_per_area * texel_count * spread * spread;
-  return footprint > 1e-12f ? 0.5f * std::log2(footprint) : -20.0f;
-}
 
 namespace texture_detail {
 
@@ -61,8 +44,8 @@ inline float reduced(float u, Wrap wrap) {
   return u >= 0.0f && u <= 2.0f ? u : 0.0f;
 }
 
-inline const std::uint8_t* texel(const MipImage::Level& level, std::int32_t x, std::int32_t y) {
-  return level.rgba.data() + (static_cast<std::size_t>(y) * level.width + static_cast<std::size_t>(x)) * 4;
+inline const std::uint8_t* texel(const MipImage& image, const MipImage::Level& level, std::int32_t x, std::int32_t y) {
+  return image.texels(level) + (static_cast<std::size_t>(y) * level.width + static_cast<std::size_t>(x)) * 4;
 }
 
 inline Vec4 decoded(const std::uint8_t* rgba, const std::array<float, 256>& colour) {
@@ -92,12 +75,15 @@ inline Footprint footprint(const Texture& texture, const MipImage::Level& level,
 }
 
 inline Vec4 sample_level(const Texture& texture, const MipImage::Level& level, Vec2 uv, bool linear) {
-  const std::array<float, 256>& colour = texture.image->srgb ? kLinearFromSrgb8 : kLinearFrom8;
+  const MipImage& image = *texture.image;
+  const std::array<float, 256>& colour = image.srgb ? kLinearFromSrgb8 : kLinearFrom8;
   const Footprint f = footprint(texture, level, uv, linear);
-  if (!linear) return decoded(texel(level, f.x0, f.y0), colour);
+  if (!linear) return decoded(texel(image, level, f.x0, f.y0), colour);
   const float w00 = (1 - f.fx) * (1 - f.fy), w10 = f.fx * (1 - f.fy), w01 = (1 - f.fx) * f.fy, w11 = f.fx * f.fy;
-  return decoded(texel(level, f.x0, f.y0), colour) * w00 + decoded(texel(level, f.x1, f.y0), colour) * w10 +
-         decoded(texel(level, f.x0, f.y1), colour) * w01 + decoded(texel(level, f.x1, f.y1), colour) * w11;
+  return decoded(texel(image, level, f.x0, f.y0), colour) * w00 +
+         decoded(texel(image, level, f.x1, f.y0), colour) * w10 +
+         decoded(texel(image, level, f.x0, f.y1), colour) * w01 +
+         decoded(texel(image, level, f.x1, f.y1), colour) * w11;
 }
 
 }  // namespace texture_detail
@@ -128,7 +114,7 @@ inline Vec4 sample_texture(const Texture& texture, Vec2 uv, float lod) {
 // The mean over the whole image, linear: its coarsest level.
 inline Vec4 average_texel(const Texture& texture) {
   const MipImage& image = *texture.image;
-  return texture_detail::decoded(image.levels.back().rgba.data(), image.srgb ? kLinearFromSrgb8 : kLinearFrom8);
+  return texture_detail::decoded(image.texels(image.levels.back()), image.srgb ? kLinearFromSrgb8 : kLinearFrom8);
 }
 
 }  // namespace luciole

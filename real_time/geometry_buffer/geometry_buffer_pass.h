@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 
+#include "base/isa.h"
 #include "ray_tracing/ray_scene.h"
 #include "real_time/geometry_buffer/geometry_buffer.h"
 
@@ -13,6 +14,7 @@ struct GeometryBufferInputs {
   Camera camera;
   std::uint32_t width = 0, height = 0;  // [pixels]
   Vec2 sub_pixel{0.5f, 0.5f};           // where in the pixel the rays go, [0,1)^2
+  Isa isa = Isa::automatic;             // of the surface kernel
 };
 
 // Writes every value of `buffer`, resized to the inputs. Same bits for any number of threads.

@@ -102,7 +102,8 @@ TEST(ManyLights, points_are_uniform_over_the_triangle_and_move_with_seed_and_fra
 TEST(ManyLights, textured_emission_is_taken_at_the_point_and_dark_ones_keep_their_key) {
   Scene scene = panel(false);
   auto image = std::make_shared<MipImage>();
-  image->levels = {{2, 1, {0, 0, 0, 255, 255, 255, 255, 255}}};
+  image->levels = {{2, 1, 0}};
+  image->rgba = {0, 0, 0, 255, 255, 255, 255, 255};
   Texture texture;
   texture.image = image;
   texture.magnify_linear = texture.minify_linear = false;

@@ -62,7 +62,7 @@ std::uint64_t hash_of(const Scene& scene) {
   for (const Material& material : scene.materials) {
     hash.add(&material.base_colour, sizeof material.base_colour), hash.add(&material.roughness, sizeof(float));
   }
-  for (const Texture& texture : scene.textures) hash.add(texture.image->levels[0].rgba);
+  for (const Texture& texture : scene.textures) hash.add(texture.image->rgba);
   for (const PunctualLight& light : scene.lights) {
     hash.add(&light.position, sizeof light.position), hash.add(&light.intensity, sizeof light.intensity);
   }

@@ -42,7 +42,7 @@ Texture paint(const std::string& name, std::uint32_t size, Encoding encoding, co
   });
   Texture texture;
   texture.name = name;
-  texture.image = std::make_shared<const MipImage>(build_mip_pyramid(std::move(image), encoding == Encoding::srgb));
+  texture.image = std::make_shared<const MipImage>(build_mip_pyramid(image, encoding == Encoding::srgb));
   return texture;
 }
 

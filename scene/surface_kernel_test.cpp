@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surface kernels of every instruction set against evaluate_surface, over random triangles, materials and textures
+// with every combination of what they may have.
+#include "scene/surface_kernel.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <string>
+
+#include "equations/cpp/instruction_set.h"
+#include "scene/make_surface_tables.h"
+#include "scene/mip_pyramid.h"
+#include "scene/surface.h"
+
+namespace luciole::test {
+namespace {
+
+using Kernel = void (*)(const SurfaceMesh&, const SurfaceQueries&, SurfaceAnswers&);
+
+class Dice {
+ public:
+  explicit Dice(std::uint32_t seed) : generator_(seed) {}
+  // [0,1), from the top bits: the same in every standard library.
+  float unit() { return static_cast<float>(generator_() >> 8) * 0x1p-24f; }
+  float within(float low, float high) { return low + (high - low) * unit(); }
+  std::uint32_t below(std::uint32_t count) { return generator_() % count; }
+  bool flip() { return below(2) == 1; }
+  Vec3 in_box(float size) { return {within(-size, size), within(-size, size), within(-size, size)}; }
+  Vec3 direction() {
+    Vec3 v = in_box(1);
+    while (!(dot(v, v) > 0.01f && dot(v, v) < 1)) v = in_box(1);
+    return normalize(v);
+  }
+
+ private:
+  std::mt19937 generator_;
+};
+
+Texture random_texture(Dice& dice, bool smooth) {
+  DecodedImage image;
+  image.width = 1 + dice.below(40), image.height = 1 + dice.below(40);
+  for (std::uint32_t i = 0; i < image.width * image.height * 4; ++i) {
+    image.rgba.push_back(static_cast<std::uint8_t>(dice.below(256)));
+  }
+  Texture texture;
+  texture.image = std::make_shared<const MipImage>(build_mip_pyramid(image, dice.flip()));
+  texture.wrap_u = static_cast<Wrap>(dice.below(3)), texture.wrap_v = static_cast<Wrap>(dice.below(3));
+  texture.magnify_linear = smooth || dice.flip(), texture.minify_linear = smooth || dice.flip();
+  texture.mip_filter = smooth ? MipFilter::linear : static_cast<MipFilter>(dice.below(3));
+  return texture;
+}
+
+TextureSlot random_slot(Dice& dice, const Scene& scene) {
+  TextureSlot slot;
+  slot.texture = static_cast<std::int32_t>(dice.below(static_cast<std::uint32_t>(scene.textures.size()) + 1)) - 1;
+  slot.uv_set = dice.below(2);
+  if (dice.flip()) return slot;
+  slot.a = dice.within(-2, 2), slot.b = dice.within(-1, 1), slot.c = dice.within(-1, 1), slot.d = dice.within(-2, 2);
+  slot.offset = {dice.within(-1, 1), dice.within(-1, 1)};
+  return slot;
+}
+
+Material random_material(Dice& dice, const Scene& scene) {
+  Material material;
+  material.base_colour = {dice.unit(), dice.unit(), dice.unit(), 1};
+  material.base_colour_texture = random_slot(dice, scene);
+  // Half of the materials read all their maps alike, as most do.
+  const bool alike = dice.flip();
+  const auto slot = [&] { return alike ? material.base_colour_texture : random_slot(dice, scene); };
+  material.metallic_roughness_texture = slot();
+  material.normal_texture = slot();
+  material.emissive_texture = slot();
+  material.metallic = dice.unit(), material.roughness = dice.within(0.3f, 1);
+  material.normal_scale = dice.within(0.2f, 1.5f);
+  if (dice.flip()) material.emission = {dice.unit(), dice.unit(), dice.unit()};
+  material.double_sided = dice.flip();
+  material.dielectric_f0 = {dice.unit(), dice.unit(), dice.unit()}, material.dielectric_f90 = dice.unit();
+  if (dice.below(4) == 0) material.metallic_override = dice.unit();
+  if (dice.below(4) == 0) material.ggx_alpha_override = dice.unit();
+  return material;
+}
+
+// Triangles about a metre wide around the origin.
+Mesh random_mesh(Dice& dice, std::uint32_t material) {
+  constexpr std::uint32_t kTriangles = 8;
+  Mesh mesh;
+  mesh.material = material;
+  const bool normals = dice.flip(), tangents = dice.flip(), colours = dice.flip(), uv0 = dice.below(4) != 0,
+             uv1 = dice.flip();
+  for (std::uint32_t t = 0; t < kTriangles; ++t) {
+    const Vec3 at = dice.in_box(2), edge1 = dice.direction(), edge2 = normalize(cross(edge1, dice.direction()));
+    for (std::uint32_t corner = 0; corner < 3; ++corner) {
+      mesh.positions.push_back(corner == 0 ? at : at + (corner == 1 ? edge1 : edge2));
+      // Turned away from the triangle by less than a right angle, so that no rounding decides on which side they are.
+      if (normals) mesh.normals.push_back(normalize(cross(edge1, edge2) + dice.in_box(0.4f)));
+      const Vec3 tangent = normalize(edge1 + dice.in_box(0.3f));
+      if (tangents) mesh.tangents.push_back({tangent.x, tangent.y, tangent.z, dice.flip() ? 1.0f : -1.0f});
+      if (colours) mesh.colours.push_back({dice.within(0, 1.2f), dice.unit(), dice.unit(), 1});
+      if (uv0) mesh.uv[0].push_back({dice.within(-3, 3), dice.within(-3, 3)});
+      if (uv1) mesh.uv[1].push_back({dice.within(-3, 3), dice.within(-3, 3)});
+      mesh.indices.push_back(3 * t + corner);
+    }
+    if (tangents) mesh.tangents[3 * t + 2].w = mesh.tangents[3 * t + 1].w = mesh.tangents[3 * t].w;
+  }
+  return mesh;
+}
+
+Scene random_scene(Dice& dice, bool smooth) {
+  Scene scene;
+  for (int i = 0; i < 6; ++i) scene.textures.push_back(random_texture(dice, smooth));
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    scene.materials.push_back(random_material(dice, scene));
+    scene.meshes.push_back(random_mesh(dice, i));
+  }
+  return scene;
+}
+
+SurfaceQueries random_queries(Dice& dice) {
+  SurfaceQueries queries;
+  for (int i = 0; i < kSurfaceLanes; ++i) {
+    queries.triangle[i] = dice.below(8);
+    const float a = std::sqrt(dice.unit()), b = dice.unit();
+    queries.u[i] = a * (1 - b), queries.v[i] = a * b;
+    const Vec3 direction = dice.direction() * dice.within(0.5f, 3);
+    queries.ray_direction[0][i] = direction.x, queries.ray_direction[1][i] = direction.y;
+    queries.ray_direction[2][i] = direction.z;
+    queries.cone_width[i] = dice.below(8) == 0 ? 0.0f : std::exp2(dice.within(-12, 2));
+  }
+  return queries;
+}
+
+// Largest difference of any answer of one lane to evaluate_surface, `cone_scale` times as far away.
+float difference(const Scene& scene, std::uint32_t mesh, const SurfaceQueries& in, const SurfaceAnswers& out, int i,
+                 float cone_scale) {
+  const Vec3 direction(in.ray_direction[0][i], in.ray_direction[1][i], in.ray_direction[2][i]);
+  const SurfacePoint point = evaluate_surface(scene, {mesh, in.triangle[i], in.u[i], in.v[i]}, normalize(direction),
+                                              in.cone_width[i] * cone_scale);
+  float largest = std::max(std::abs(point.f90 - out.f90[i]), std::abs(point.ggx_alpha - out.ggx_alpha[i]));
+  const auto compare = [&](Vec3 expected, const float(&planes)[3][kSurfaceLanes]) {
+    const Vec3 apart = abs(expected - Vec3(planes[0][i], planes[1][i], planes[2][i]));
+    // Not-a-number counts as far apart.
+    for (float part : {apart.x, apart.y, apart.z}) largest = part <= largest ? largest : std::isnan(part) ? 9e9f : part;
+  };
+  compare(point.position, out.position);
+  compare(point.geometric_normal, out.geometric_normal);
+  compare(point.shading_normal, out.shading_normal);
+  compare(point.diffuse_albedo, out.diffuse_albedo);
+  compare(point.f0, out.f0);
+  compare(point.emission, out.emission);
+  return largest;
+}
+
+struct Agreement {
+  float largest = 0;    // difference of any lane
+  double agreeing = 0;  // share of lanes within kRounding
+};
+
+// A coordinate of size 10 in an image of 40 texels carries roundings of 10 * 2^-24 * 40 texels, and neighbouring texels
+// may be black and white; a few of them.
+constexpr float kRounding = 2e-4f;
+
+Agreement agreement(Kernel kernel, bool smooth, float cone_scale) {
+  Dice dice(smooth ? 5u : 6u);
+  const Scene scene = random_scene(dice, smooth);
+  const SurfaceTables tables(scene);
+  Agreement found;
+  double lanes = 0;
+  for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+    for (int repetition = 0; repetition < 8; ++repetition) {
+      const SurfaceQueries queries = random_queries(dice);
+      SurfaceAnswers answers;
+      kernel(tables.mesh(mesh), queries, answers);
+      for (int i = 0; i < kSurfaceLanes; ++i, ++lanes) {
+        const float apart = difference(scene, mesh, queries, answers, i, cone_scale);
+        found.largest = std::max(found.largest, apart);
+        found.agreeing += apart < kRounding;
+      }
+    }
+  }
+  found.agreeing /= lanes;
+  return found;
+}
+
+void expect_agreement(InstructionSet set, Kernel kernel) {
+  if (!supports(set)) GTEST_SKIP() << "this processor has no " << name_of(set);
+  EXPECT_LT(agreement(kernel, true, 1).largest, kRounding);
+  EXPECT_GT(agreement(kernel, false, 1).agreeing, 0.9995);  // a rounding may choose the next texel
+  EXPECT_LT(agreement(kernel, true, 1.01f).agreeing, 0.9);  // the control: one per cent off is noticed
+}
+
+TEST(SurfaceKernel, agrees_with_evaluate_surface_on_avx512) {
+  expect_agreement(InstructionSet::avx512, avx512::evaluate_surfaces);
+}
+TEST(SurfaceKernel, agrees_with_evaluate_surface_on_avx2) {
+  expect_agreement(InstructionSet::avx2, avx2::evaluate_surfaces);
+}
+TEST(SurfaceKernel, agrees_with_evaluate_surface_on_the_baseline) {
+  expect_agreement(InstructionSet::baseline, baseline::evaluate_surfaces);
+}
+
+// A point that a triangle of no area is asked for, and coordinates that are not numbers, give finite surfaces.
+TEST(SurfaceKernel, survives_what_is_not_a_surface) {
+  Dice dice(7);
+  Scene scene = random_scene(dice, true);
+  for (Mesh& mesh : scene.meshes) {
+    mesh.positions[1] = mesh.positions[2] = mesh.positions[0];
+    for (auto& set : mesh.uv) {
+      if (set.size() > 5) set[4] = {INFINITY, NAN}, set[5] = {-1e30f, 1e30f};
+    }
+  }
+  const SurfaceTables tables(scene);
+  for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+    SurfaceQueries queries = random_queries(dice);
+    for (std::uint32_t& triangle : queries.triangle) triangle %= 2;
+    SurfaceAnswers answers;
+    baseline::evaluate_surfaces(tables.mesh(mesh), queries, answers);
+    for (int i = 0; i < kSurfaceLanes; ++i) {
+      const Vec3 normal(answers.shading_normal[0][i], answers.shading_normal[1][i], answers.shading_normal[2][i]);
+      EXPECT_NEAR(length(normal), 1, 1e-5f);
+      EXPECT_TRUE(answers.ggx_alpha[i] >= kLeastGgxAlpha && answers.ggx_alpha[i] <= 1);
+      EXPECT_TRUE(answers.diffuse_albedo[0][i] >= 0 && answers.diffuse_albedo[0][i] <= 1);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace luciole::test
