@@ -77,7 +77,8 @@ const std::vector<std::pair<std::string, LayerWriter>>& layer_table() {
        }},
       {"unfiltered",
        [](const CompositionInputs& in, const std::string& name, Image& image) {
-         image.set_colours(name, add(modulate(in.geometry, in.noisy), modulate(in.geometry, in.shaded.from_many)));
+         image.set_colours(name,
+                           add(modulate(in.geometry, in.shaded.indirect), modulate(in.geometry, in.shaded.from_many)));
        }},
       {"albedo", [](const CompositionInputs& in, const std::string& name,
                     Image& image) { image.set_colours(name, albedo_layer(in.geometry)); }},
@@ -108,21 +109,6 @@ const std::vector<std::string>& composition_layers() {
     return out;
   }();
   return names;
-}
-
-Radiance sum(const Radiance& a, const Radiance& b) {
-  Radiance out;
-  const std::size_t pixels = a.diffuse[0].size();
-  out.resize(pixels);
-  for (int c = 0; c < 3; ++c) {
-    parallel_for(pixels, 65536, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        out.diffuse[c][i] = a.diffuse[c][i] + b.diffuse[c][i];
-        out.specular[c][i] = a.specular[c][i] + b.specular[c][i];
-      }
-    });
-  }
-  return out;
 }
 
 void compose(const CompositionInputs& inputs, const std::vector<std::string>& layers, Frame& frame) {

@@ -16,16 +16,12 @@ struct CompositionInputs {
   const Plane3& direct;      // radiance by the primary lights
   const Radiance& indirect;  // filtered, if a filter is on
   const Radiance& many;      // direct light of the many, likewise; its planes are empty without any
-  const Radiance& noisy;     // indirect before the filter
   const ShadedRadiance& shaded;
   const ShadingOutputs& counts;
   const Prediction& prediction;  // planes are empty unless asked for
 };
 
 const std::vector<std::string>& composition_layers();
-
-// The sum of two radiances, pixel by pixel.
-Radiance sum(const Radiance& a, const Radiance& b);
 
 void compose(const CompositionInputs& inputs, const std::vector<std::string>& layers, Frame& frame);
 

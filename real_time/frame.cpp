@@ -178,7 +178,8 @@ ShadingOutputs Renderer::State::shade_lights(std::uint64_t frame_index, const st
                              settings,
                              subset_shift(key, settings.interleave),
                              settings.direct_shadows ? &rays : nullptr,
-                             wants(layers, "lights_listed") || wants(layers, "lights_false")};
+                             wants(layers, "lights_listed") || wants(layers, "lights_false"),
+                             wants(layers, "indirect_from_diffuse") || wants(layers, "indirect_from_glossy")};
   const auto start = std::chrono::steady_clock::now();
   ShadingOutputs shaded = shade(inputs);
   const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
@@ -213,14 +214,14 @@ Result<Frame> Renderer::render(std::uint64_t frame_index, const std::vector<std:
   const View& seen = *state_->cached;
   PassTimer timer(frame.statistics);
   const bool filtered = state_->settings.filter == Filter::bilateral;
-  const Radiance noisy = sum(shaded.radiance.from_diffuse, shaded.radiance.from_glossy);
+  const Radiance& noisy = shaded.radiance.indirect;
   const BilateralFilterPass::Inputs common{seen.geometry, noisy, filter_radius(state_->settings.interleave),
                                            state_->settings.isa};
   BilateralFilterPass::Inputs for_many{seen.geometry, shaded.radiance.from_many, common.radius, common.isa};
   const Radiance& indirect = filtered ? state_->filter_indirect.run(common) : noisy;
   const Radiance& many = filtered ? state_->filter_many.run(for_many) : shaded.radiance.from_many;
   timer.end("filtering");
-  compose({seen.geometry, seen.direct, indirect, many, noisy, shaded.radiance, shaded, prediction}, layers, frame);
+  compose({seen.geometry, seen.direct, indirect, many, shaded.radiance, shaded, prediction}, layers, frame);
   timer.end("composition");
   for (const auto& [pass, ms] : frame.statistics.passes_ms) frame.statistics.frame_ms += ms;
   if (stop_requested()) return Error{ErrorKind::failed, "the frame was interrupted"};

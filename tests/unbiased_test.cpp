@@ -97,8 +97,9 @@ class GlossyLight {
     const ReachingLights<ManyEmitter> none;
     Settings unweighted = settings_;
     unweighted.ranges = Ranges::clamped;  // weight 1, on lights that have random ranges
-    const ShadingOutputs out =
-        shade({geometry_, diffuse, glossy, none, unweighted, subset_shift(key, settings_.interleave)});
+    ShadingInputs inputs{geometry_, diffuse, glossy, none, unweighted, subset_shift(key, settings_.interleave)};
+    inputs.lobes_apart = true;
+    const ShadingOutputs out = shade(inputs);
     const Radiance& light = out.radiance.from_glossy;
     std::vector<Vec3> pixels(geometry_.pixel_count());
     for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -15,8 +15,9 @@ struct Radiance {
 
 // What lights the pixels, kept apart by where the light comes from.
 struct ShadedRadiance {
-  Radiance from_diffuse;  // indirect, by the diffuse lobes of the virtual point lights
-  Radiance from_glossy;   // indirect, by their glossy lobes: caustics
+  Radiance indirect;      // by both lobes of the virtual point lights
+  Radiance from_diffuse;  // its part by the diffuse lobes; empty unless asked for
+  Radiance from_glossy;   // its part by the glossy lobes, caustics; likewise
   Radiance from_many;     // direct, by punctual and emissive lights; empty without any
 };
 

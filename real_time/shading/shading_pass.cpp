@@ -10,10 +10,16 @@
 namespace luciole {
 namespace {
 
+// On all threads: the first touch of new memory takes longer than writing it.
 void clear(Radiance& radiance, std::size_t pixels) {
   radiance.resize(pixels);
-  for (Plane3* planes : {&radiance.diffuse, &radiance.specular})
-    for (Plane& plane : *planes) std::fill(plane.begin(), plane.end(), 0.0f);
+  for (Plane3* planes : {&radiance.diffuse, &radiance.specular}) {
+    for (Plane& plane : *planes) {
+      parallel_for(pixels, std::size_t(1) << 19, [&](std::size_t begin, std::size_t end) {
+        std::fill(plane.data() + begin, plane.data() + end, 0.0f);
+      });
+    }
+  }
 }
 
 void add(LightCounts& to, const LightCounts& from) {
@@ -30,8 +36,8 @@ void Radiance::resize(std::size_t pixels) {
 ShadingOutputs shade(const ShadingInputs& inputs) {
   ShadingOutputs out;
   const std::size_t pixels = inputs.geometry.pixel_count();
-  clear(out.radiance.from_diffuse, pixels);
-  clear(out.radiance.from_glossy, pixels);
+  clear(out.radiance.indirect, pixels);
+  if (inputs.lobes_apart) clear(out.radiance.from_diffuse, pixels), clear(out.radiance.from_glossy, pixels);
   if (!inputs.many.emitters.empty()) clear(out.radiance.from_many, pixels);
   if (inputs.count_per_pixel) {
     out.lights_listed.assign(pixels, 0.0f);

@@ -22,6 +22,7 @@ struct ShadingInputs {
   std::uint32_t shift = 0;            // subset of sub-region s: (s + shift) mod n^2
   const RayScene* shadows = nullptr;  // one shadow ray per accepted one of `many`, if given
   bool count_per_pixel = false;       // fill lights_listed and lights_false
+  bool lobes_apart = false;           // fill from_diffuse and from_glossy
 };
 
 // Counts of one kind of lobe. A list belongs to one depth half of one tile.

@@ -93,14 +93,21 @@ void TileWorker::find_shadows(const PixelGroup& group, LightList<ManyEmitter>& l
   list.visible = visible_.data();
 }
 
-void TileWorker::write(const PixelGroup& group, std::uint32_t listed, LightCounts& counts, Radiance& radiance) {
+void TileWorker::add_to_pixels(const PixelGroup& group, Radiance& radiance) const {
   const float weight = static_cast<float>(inputs_.settings.interleave * inputs_.settings.interleave);
+  for (std::size_t c = 0; c < 3; ++c) {
+    float* diffuse_plane = radiance.diffuse[c].data();
+    float* specular_plane = radiance.specular[c].data();
+    for (std::uint32_t lane = 0; lane < group.count; ++lane) {
+      diffuse_plane[group.pixel[lane]] += sum_.diffuse[c][lane] * weight;
+      specular_plane[group.pixel[lane]] += sum_.specular[c][lane] * weight;
+    }
+  }
+}
+
+void TileWorker::count(const PixelGroup& group, std::uint32_t listed, LightCounts& counts) {
   for (std::uint32_t lane = 0; lane < group.count; ++lane) {
     const std::uint32_t pixel = group.pixel[lane];
-    for (int c = 0; c < 3; ++c) {
-      radiance.diffuse[c][pixel] = sum_.diffuse[c][lane] * weight;
-      radiance.specular[c][pixel] = sum_.specular[c][lane] * weight;
-    }
     const auto accepted = static_cast<std::uint64_t>(sum_.accepted[lane]);
     counts.accepted += accepted;
     counts.listed += listed;
@@ -113,7 +120,7 @@ void TileWorker::write(const PixelGroup& group, std::uint32_t listed, LightCount
 
 template <class Emitter>
 void TileWorker::add_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset, LightCounts& counts,
-                            Radiance& radiance) {
+                            Radiance& radiance, Radiance* part) {
   if (lights.emitters.empty()) return;
   const auto start = std::chrono::steady_clock::now();
   list_lights(lights, subset);
@@ -130,7 +137,9 @@ void TileWorker::add_lights(const ReachingLights<Emitter>& lights, std::uint32_t
     find_shadows(group, list);
     LUCIOLE_FOR_ISA(inputs_.settings.isa, shade_group(group, list, divide_by_p, sum_));
     counts.evaluated += std::uint64_t(list.count) * kGroupPixels;
-    write(group, halves_[group.half].lists().count, counts, radiance);
+    add_to_pixels(group, radiance);
+    if (part != nullptr) add_to_pixels(group, *part);
+    count(group, halves_[group.half].lists().count, counts);
   }
   culling_seconds += std::chrono::duration<double>(listed - start).count();
   shading_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - listed).count();
@@ -145,9 +154,11 @@ void TileWorker::run_block(std::uint32_t bx, std::uint32_t by) {
     if (tile_.group_count == 0) continue;
     pixels += tile_.half[0].pixels + tile_.half[1].pixels;
     const std::uint32_t subset = (s + inputs_.shift) % (n * n);
-    add_lights(inputs_.diffuse, subset, diffuse, outputs_.radiance.from_diffuse);
-    add_lights(inputs_.glossy, subset, glossy, outputs_.radiance.from_glossy);
-    add_lights(inputs_.many, subset, many, outputs_.radiance.from_many);
+    ShadedRadiance& radiance = outputs_.radiance;
+    const bool apart = inputs_.lobes_apart;
+    add_lights(inputs_.diffuse, subset, diffuse, radiance.indirect, apart ? &radiance.from_diffuse : nullptr);
+    add_lights(inputs_.glossy, subset, glossy, radiance.indirect, apart ? &radiance.from_glossy : nullptr);
+    add_lights(inputs_.many, subset, many, radiance.from_many);
   }
 }
 

@@ -40,7 +40,8 @@ class TileWorker {
 
  private:
   template <class Emitter>
-  void add_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset, LightCounts& counts, Radiance& radiance);
+  void add_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset, LightCounts& counts, Radiance& radiance,
+                  Radiance* part = nullptr);
   template <class Emitter>
   void list_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset);
   // The lists of all groups one after the other, as indices into the subset.
@@ -48,7 +49,9 @@ class TileWorker {
   void find_shadows(const PixelGroup& group, LightList<ManyEmitter>& list);
   void find_shadows(const PixelGroup&, LightList<DiffuseEmitter>&) {}
   void find_shadows(const PixelGroup&, LightList<GlossyEmitter>&) {}
-  void write(const PixelGroup& group, std::uint32_t listed, LightCounts& counts, Radiance& radiance);
+  // Adds the sum of a group's lights to its pixels.
+  void add_to_pixels(const PixelGroup& group, Radiance& radiance) const;
+  void count(const PixelGroup& group, std::uint32_t listed, LightCounts& counts);
 
   const ShadingInputs& inputs_;
   ShadingOutputs& outputs_;
