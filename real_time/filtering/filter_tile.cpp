@@ -41,13 +41,13 @@ LUCIOLE_FN FilterCentre centre_at(const FilterPicture& picture, int x, int y) {
 
 // A tap `right` pixels to the right of the centres; `tap` is its first quantity. kScaled: weights times `scale`.
 template <bool kScaled>
-LUCIOLE_FN void add_tap(const float* tap, float right, const FilterCentre& centre, real row_offset, real scale,
+LUCIOLE_FN void add_tap(const float* tap, real right, const FilterCentre& centre, real row_offset, real scale,
                         Sums& sums) {
   const auto quantity = [tap](int which) __attribute__((always_inline)) {
     return load_unaligned(tap + which * kFilterLine);
   };
   const real3 normal(quantity(kNormalX), quantity(kNormalY), quantity(kNormalZ));
-  TapWeight w = tap_weight(centre, row_offset, real(right), quantity(kInverseDepth), normal, quantity(kAlpha));
+  TapWeight w = tap_weight(centre, row_offset, right, quantity(kInverseDepth), normal, quantity(kAlpha));
   if constexpr (kScaled) w.diffuse *= scale, w.specular *= scale;
   sums.diffuse_weight += w.diffuse * quantity(kReflectsDiffusely);
   sums.specular_weight += w.specular;
@@ -62,12 +62,14 @@ LUCIOLE_FN void add_row(const float* tap, int radius, const FilterCentre& centre
                         Sums& sums) {
   const int inner = radius > 0 ? radius - 1 : 0;
   if (radius > 0) {
-    const auto end = static_cast<float>(radius);
+    const real end(static_cast<float>(radius));
     add_tap<true>(tap - radius, -end, centre, row_offset, real(0.5f * scale), sums);
     add_tap<true>(tap + radius, end, centre, row_offset, real(0.5f * scale), sums);
   }
-  for (int x = -inner; x <= inner; ++x) {
-    add_tap<kScaled>(tap + x, static_cast<float>(x), centre, row_offset, real(scale), sums);
+  // Counted in a register: a number made from x would cost three operations on the ports that are the bound.
+  real right(static_cast<float>(-inner));
+  for (int x = -inner; x <= inner; ++x, right += real(1.0f)) {
+    add_tap<kScaled>(tap + x, right, centre, row_offset, real(scale), sums);
   }
 }
 
