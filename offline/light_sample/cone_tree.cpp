@@ -186,7 +186,7 @@ float ConeTreeSampler::importance(const Bound& bound, const Receiver& receiver) 
   return bound.flux * cos_least * std::max(cos_highest, 0.0f) / std::max({distance_sq, radius_sq, 1e-20f});
 }
 
-ChosenLight ConeTreeSampler::choose(const Receiver& receiver, double u, ChoiceMemory&) const {
+ChosenLight ConeTreeSampler::choose(const Receiver& receiver, Candidates&, double u, ChoiceMemory&) const {
   if (nodes_.empty()) return {};
   ChosenLight chosen{kNoLight, 1, 0};
   std::uint32_t at = 0;

@@ -22,7 +22,7 @@ class ConeTreeSampler final : public LightSampler {
  public:
   ConeTreeSampler(const LightSet& lights, const Scene& scene);
 
-  ChosenLight choose(const Receiver& receiver, double u, ChoiceMemory& memory) const override;
+  ChosenLight choose(const Receiver& receiver, Candidates& candidates, double u, ChoiceMemory& memory) const override;
   float assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory, const LightPlace& place,
                     std::uint32_t random) const override;
   std::uint64_t memory_bytes() const override;

@@ -7,19 +7,13 @@
 #include <numbers>
 
 #include "equations/cpp/float.h"
-#include "offline/light_sample/weighted_choice.h"
 
 namespace luciole {
 namespace {
 
-constexpr std::uint32_t kChunk = 256;  // lights that are weighed together
-
-Vec3 position_of(const Receiver& receiver) {
-  return {receiver.position[0], receiver.position[1], receiver.position[2]};
-}
+constexpr float kSharedRanges = 1;  // times the size of a group
 
 }  // namespace
-
 CullingSampler::CullingSampler(const LightSet& lights, const PathSettings& settings,
                                const CullingParameters& parameters)
     : lights_(lights),
@@ -32,37 +26,57 @@ void CullingSampler::begin_pass(std::uint64_t pass) {
   tree_.draw(settings_.seed, pass, settings_.range_samples, parameters_.radiance_floor);
 }
 
-template <class Use>
-void CullingSampler::for_each_overlapping(const Receiver& receiver, const Use& use) const {
-  const SphereTree tree = tree_.tree();
+void CullingSampler::add_overlapping(const WalkBounds& bounds, LightRows& rows) const {
+  constexpr std::uint32_t kChunk = 256;
   std::uint32_t lights[kChunk];
-  float weights[kChunk];
+  const SphereTree tree = tree_.tree();
   for (TreeWalk walk(tree); !walk.done();) {
-    const std::uint32_t count =
-        LUCIOLE_FOR_ISA(settings_.isa, overlapping_lights(tree, receiver.position, walk, lights, kChunk));
-    LUCIOLE_FOR_ISA(settings_.isa, weigh_lights(lights_.records().data(), lights, count, receiver, weight_,
-                                                ranges_of_pass(), weights));
-    use(lights, weights, count);
+    const std::uint32_t found = LUCIOLE_FOR_ISA(settings_.isa, overlapping_lights(tree, bounds, walk, lights, kChunk));
+    for (std::uint32_t i = 0; i < found; ++i) rows.add(lights[i], lights_.records()[lights[i]], tree_.xi(lights[i]));
   }
 }
 
-ChosenLight CullingSampler::choose(const Receiver& receiver, double u, ChoiceMemory& memory) const {
+// A group shares the lights whose ranges are larger than itself: most of what overlaps one of its points then overlaps
+// the others. Of lights with shorter ranges a large group could meet thousands.
+void CullingSampler::share_candidates(const Receiver* receivers, std::uint32_t count, Candidates& candidates) const {
+  Bounds box;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    box.grow({receivers[i].position[0], receivers[i].position[1], receivers[i].position[2]});
+  }
+  candidates.rows.clear();
+  candidates.first_own_block = tree_.first_block_below(kSharedRanges * box.diagonal());
+  if (candidates.first_own_block > 0) {
+    add_overlapping(
+        {{box.low.x, box.low.y, box.low.z}, {box.high.x, box.high.y, box.high.z}, 0, candidates.first_own_block},
+        candidates.rows);
+  }
+  candidates.shared = candidates.rows.size();
+}
+
+void CullingSampler::find_own_candidates(const Receiver& receiver, Candidates& candidates) const {
+  candidates.rows.shorten(candidates.shared);
+  const float* p = receiver.position;
+  if (candidates.first_own_block < tree_.block_count()) {
+    add_overlapping({{p[0], p[1], p[2]}, {p[0], p[1], p[2]}, candidates.first_own_block, tree_.block_count()},
+                    candidates.rows);
+  }
+}
+
+ChosenLight CullingSampler::choose(const Receiver& receiver, Candidates& candidates, double u,
+                                   ChoiceMemory& memory) const {
+  find_own_candidates(receiver, candidates);
   WeightedChoice choice(u);
-  for_each_overlapping(receiver, [&](const std::uint32_t* lights, const float* weights, std::uint32_t count) {
-    choice.add(lights, weights, count);
-  });
+  choice.add(candidates.rows, receiver, weighing());
   memory.total_weight = choice.total();
   return choice.chosen();
 }
 
-float CullingSampler::weight_of(std::uint32_t light, const Receiver& receiver, const PassRanges& ranges) const {
-  float weight = 0;
-  LUCIOLE_FOR_ISA(settings_.isa, weigh_lights(lights_.records().data(), &light, 1, receiver, weight_, ranges, &weight));
-  return weight;
+float CullingSampler::weight_in_any_range(std::uint32_t light, const Receiver& receiver) const {
+  return weight_of(lights_.records()[light], 0, receiver, weighing());
 }
 
-bool CullingSampler::was_weighed(std::uint32_t light, const Receiver& receiver) const {
-  return tree_.overlaps(light, position_of(receiver)) && weight_of(light, receiver, ranges_of_pass()) > 0;
+float CullingSampler::weight_in_range(std::uint32_t light, const Receiver& receiver) const {
+  return weight_of(lights_.records()[light], tree_.xi(light), receiver, weighing());
 }
 
 float CullingSampler::probability_to_overlap(std::uint32_t light, const LightPlace& place) const {
@@ -77,13 +91,13 @@ float CullingSampler::acceptance(std::uint32_t light, const LightPlace& place) c
 
 float CullingSampler::assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory,
                                   const LightPlace& place, std::uint32_t /*random*/) const {
-  const float weight = weight_of(light, receiver, in_any_range());
+  const float weight = weight_in_any_range(light, receiver);
   if (!(weight > 0)) return 0;
   const float p = probability_to_overlap(light, place);
   if (settings_.range_samples == RangeNumbers::stratified) return p * weight / parameters_.stand_in_weight;
   // The choice completed by the light, as if it had overlapped in any case: a light's own range then says nothing about
   // the others that it was weighed against.
-  const float total = memory.total_weight + (was_weighed(light, receiver) ? 0 : weight);
+  const float total = memory.total_weight + (weight_in_range(light, receiver) > 0 ? 0 : weight);
   return p * weight / std::max(total, weight);
 }
 
@@ -91,27 +105,30 @@ float CullingSampler::error_bound() const {
   return parameters_.radiance_floor * parameters_.exposure / (2 * std::numbers::pi_v<float>);  // delta = 2 pi eps
 }
 
-ChosenLight ListSampler::choose(const Receiver& receiver, double u, ChoiceMemory& memory) const {
+ChosenLight ListSampler::choose(const Receiver& receiver, Candidates& candidates, double u,
+                                ChoiceMemory& memory) const {
+  find_own_candidates(receiver, candidates);
   const std::uint32_t k = settings_.list_length;
   memory.overlapping = memory.listed = 0;
   f32::RandomWords random =
       f32::random_words(static_cast<std::uint32_t>(u * 0x1p32), 0, std::bit_cast<std::uint32_t>(receiver.position[0]),
                         std::bit_cast<std::uint32_t>(receiver.position[1]));
-  for_each_overlapping(receiver, [&](const std::uint32_t* lights, const float* weights, std::uint32_t count) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      if (!(weights[i] > 0)) continue;
-      std::uint32_t place = memory.listed;
-      ++memory.overlapping;
-      if (memory.listed < k) {
-        ++memory.listed;
-      } else {
-        random = f32::random_words(random.first, 0, random.second, memory.overlapping);
-        place = static_cast<std::uint32_t>((std::uint64_t(random.first) * memory.overlapping) >> 32u);
-        if (place >= k) continue;
-      }
-      memory.light[place] = lights[i], memory.weight[place] = weights[i];
-    }
-  });
+  weigh_in_chunks(candidates.rows, receiver, weighing(),
+                  [&](const std::uint32_t* lights, const float* weights, std::uint32_t count) {
+                    for (std::uint32_t i = 0; i < count; ++i) {
+                      if (!(weights[i] > 0)) continue;
+                      std::uint32_t place = memory.listed;
+                      ++memory.overlapping;
+                      if (memory.listed < k) {
+                        ++memory.listed;
+                      } else {
+                        random = f32::random_words(random.first, 0, random.second, memory.overlapping);
+                        place = static_cast<std::uint32_t>((std::uint64_t(random.first) * memory.overlapping) >> 32u);
+                        if (place >= k) continue;
+                      }
+                      memory.light[place] = lights[i], memory.weight[place] = weights[i];
+                    }
+                  });
   WeightedChoice choice(u);
   choice.add(memory.light.data(), memory.weight.data(), memory.listed);
   memory.total_weight = choice.total();
@@ -124,12 +141,12 @@ ChosenLight ListSampler::choose(const Receiver& receiver, double u, ChoiceMemory
 // The list completed by the light: were it among the overlapping and in the list, another would have left a full list.
 float ListSampler::assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory,
                                const LightPlace& place, std::uint32_t random) const {
-  const float weight = weight_of(light, receiver, in_any_range());
+  const float weight = weight_in_any_range(light, receiver);
   if (!(weight > 0)) return 0;
   const auto k = static_cast<float>(settings_.list_length);
   const float p = probability_to_overlap(light, place);
   if (settings_.range_samples == RangeNumbers::stratified) return p * weight / parameters_.stand_in_weight;
-  const bool overlaps = was_weighed(light, receiver);
+  const bool overlaps = weight_in_range(light, receiver) > 0;
   const auto* end = memory.light.begin() + memory.listed;
   const bool listed = overlaps && std::find(memory.light.begin(), end, light) != end;
   const auto overlapping = static_cast<float>(memory.overlapping + (overlaps ? 0 : 1));
@@ -157,7 +174,7 @@ float ClampedSampler::acceptance(std::uint32_t light, const LightPlace& place) c
 float ClampedSampler::assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory,
                                   const LightPlace& place, std::uint32_t /*random*/) const {
   if (!(acceptance(light, place) > 0)) return std::numeric_limits<float>::infinity();
-  return weight_of(light, receiver, in_any_range()) / std::max(memory.total_weight, 1e-30f);
+  return weight_in_any_range(light, receiver) / std::max(memory.total_weight, 1e-30f);
 }
 
 }  // namespace luciole

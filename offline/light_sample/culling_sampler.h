@@ -3,6 +3,7 @@
 // 5
 #pragma once
 #include "offline/light_sample/light_sampler.h"
+#include "offline/light_sample/weighted_choice.h"
 #include "offline/light_tree/range_tree.h"
 
 namespace luciole {
@@ -20,7 +21,8 @@ class CullingSampler : public LightSampler {
   CullingSampler(const LightSet& lights, const PathSettings& settings, const CullingParameters& parameters);
 
   void begin_pass(std::uint64_t pass) override;
-  ChosenLight choose(const Receiver& receiver, double u, ChoiceMemory& memory) const override;
+  void share_candidates(const Receiver* receivers, std::uint32_t count, Candidates& candidates) const override;
+  ChosenLight choose(const Receiver& receiver, Candidates& candidates, double u, ChoiceMemory& memory) const override;
   float acceptance(std::uint32_t light, const LightPlace& place) const override;
   float assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory, const LightPlace& place,
                     std::uint32_t random) const override;
@@ -28,18 +30,15 @@ class CullingSampler : public LightSampler {
   float error_bound() const override;
 
  protected:
-  // As kernels weigh it; with in_any_range() as if the light's range were infinite.
-  float weight_of(std::uint32_t light, const Receiver& receiver, const PassRanges& ranges) const;
-  PassRanges ranges_of_pass() const { return {tree_.xi(), parameters_.radiance_floor}; }
-  PassRanges in_any_range() const { return {nullptr, parameters_.radiance_floor}; }
-  // Whether the light was among those that this pass weighed for the receiver.
-  bool was_weighed(std::uint32_t light, const Receiver& receiver) const;
+  // Adds the receiver's own lights to the shared ones.
+  void find_own_candidates(const Receiver& receiver, Candidates& candidates) const;
+  void add_overlapping(const WalkBounds& bounds, LightRows& rows) const;
+  // Whatever the light's range is; and 0 where it does not reach.
+  float weight_in_any_range(std::uint32_t light, const Receiver& receiver) const;
+  float weight_in_range(std::uint32_t light, const Receiver& receiver) const;
+  Weighing weighing() const { return {weight_, parameters_.radiance_floor, settings_.isa}; }
   // p, [TH17] Eq. 2 with the mean intensity of the channels.
   float probability_to_overlap(std::uint32_t light, const LightPlace& place) const;
-  // Calls use(lights, weights, count) for all lights that overlap, in chunks.
-  template <class Use>
-  void for_each_overlapping(const Receiver& receiver, const Use& use) const;
-
   const LightSet& lights_;
   PathSettings settings_;
   CullingParameters parameters_;
@@ -51,7 +50,7 @@ class CullingSampler : public LightSampler {
 class ListSampler final : public CullingSampler {
  public:
   using CullingSampler::CullingSampler;
-  ChosenLight choose(const Receiver& receiver, double u, ChoiceMemory& memory) const override;
+  ChosenLight choose(const Receiver& receiver, Candidates& candidates, double u, ChoiceMemory& memory) const override;
   float assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory, const LightPlace& place,
                     std::uint32_t random) const override;
 };

@@ -2,8 +2,6 @@
 // Weighs every light at every point: the least variance that these weights can give, and the measure of the others.
 //                                                                                     [TH16] Fig. 10, "brute force"
 #pragma once
-#include <vector>
-
 #include "offline/light_sample/light_sampler.h"
 
 namespace luciole {
@@ -11,17 +9,15 @@ namespace luciole {
 class ExhaustiveSampler final : public LightSampler {
  public:
   ExhaustiveSampler(const LightSet& lights, Isa isa);
-  ChosenLight choose(const Receiver& receiver, double u, ChoiceMemory& memory) const override;
+  ChosenLight choose(const Receiver& receiver, Candidates& candidates, double u, ChoiceMemory& memory) const override;
   float assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory, const LightPlace& place,
                     std::uint32_t random) const override;
-  std::uint64_t memory_bytes() const override { return index_.size() * sizeof(std::uint32_t); }
+  std::uint64_t memory_bytes() const override { return all_.memory_bytes(); }
 
  private:
-  void weigh(const std::uint32_t* lights, std::uint32_t count, const Receiver& receiver, float* weights) const;
-
   const LightSet& lights_;
   Isa isa_;
-  std::vector<std::uint32_t> index_;  // 0, 1, 2, ...
+  LightRows all_;
 };
 
 }  // namespace luciole

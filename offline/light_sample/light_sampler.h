@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "offline/light_sample/light_rows.h"
 #include "offline/light_sample/weigh_kernel.h"
 #include "offline/settings.h"
 
@@ -33,6 +34,13 @@ struct LightPlace {
   float factor;       // directional factor s towards the receiver, mean over a lamp's or triangle's texture
 };
 
+// Memory for the lights that a receiver may choose: first those that it shares, then its own.
+struct Candidates {
+  LightRows rows;
+  std::uint32_t shared = 0;           // rows
+  std::uint32_t first_own_block = 0;  // of the range tree's level 0: from here on each receiver looks for itself
+};
+
 class LightSampler {
  public:
   virtual ~LightSampler() = default;
@@ -40,8 +48,13 @@ class LightSampler {
   // Draws what is random per pass. No other function changes anything.
   virtual void begin_pass(std::uint64_t /*pass*/) {}
 
-  // u: a number in [0,1).
-  virtual ChosenLight choose(const Receiver& receiver, double u, ChoiceMemory& memory) const = 0;
+  // What receivers that lie near each other share: lights that some of them may choose. Which receivers come together
+  // changes the cost, never the choice.
+  virtual void share_candidates(const Receiver* /*receivers*/, std::uint32_t /*count*/, Candidates&) const {}
+
+  // candidates: shared by a group that the receiver belongs to; u: a number in [0,1).
+  virtual ChosenLight choose(const Receiver& receiver, Candidates& candidates, double u,
+                             ChoiceMemory& memory) const = 0;
 
   // Probability that the place of a light is in reach, for every random range of the light; 0 where this pass's range
   // ends before it. A sample's density is pmf * acceptance * density of the place on the light.   [TH16] Eq. 10

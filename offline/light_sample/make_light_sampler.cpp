@@ -67,8 +67,10 @@ Histogram histogram_of(const LightSet& lights, const std::vector<Receiver>& rece
 float mean_total_weight(const LightSampler& sampler, const std::vector<Receiver>& receivers) {
   double sum = 0;
   ChoiceMemory memory;
+  Candidates candidates;
   for (const Receiver& receiver : receivers) {
-    sampler.choose(receiver, 0.5, memory);
+    sampler.share_candidates(&receiver, 1, candidates);
+    sampler.choose(receiver, candidates, 0.5, memory);
     sum += memory.total_weight;
   }
   return static_cast<float>(std::max(sum / static_cast<double>(std::max<std::size_t>(receivers.size(), 1)), 1e-30));

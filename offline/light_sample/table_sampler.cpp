@@ -28,7 +28,7 @@ TableSampler::TableSampler(const LightSet& lights, By by) : sums_(lights.size())
   for (double& running : sums_) running /= sum;
 }
 
-ChosenLight TableSampler::choose(const Receiver& receiver, double u, ChoiceMemory& memory) const {
+ChosenLight TableSampler::choose(const Receiver& receiver, Candidates&, double u, ChoiceMemory& memory) const {
   if (sums_.empty()) return {};
   const auto found = std::upper_bound(sums_.begin(), sums_.end() - 1, u);
   const auto light = static_cast<std::uint32_t>(found - sums_.begin());

@@ -12,7 +12,7 @@ class TableSampler final : public LightSampler {
   enum class By : std::uint8_t { count, flux };
   TableSampler(const LightSet& lights, By by);
 
-  ChosenLight choose(const Receiver& receiver, double u, ChoiceMemory& memory) const override;
+  ChosenLight choose(const Receiver& receiver, Candidates& candidates, double u, ChoiceMemory& memory) const override;
   float assumed_pmf(std::uint32_t light, const Receiver& receiver, const ChoiceMemory& memory, const LightPlace& place,
                     std::uint32_t random) const override;
   std::uint64_t memory_bytes() const override { return sums_.size() * sizeof(double); }

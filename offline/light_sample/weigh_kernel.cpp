@@ -4,7 +4,6 @@
 #include "equations/cpp/wide.h"
 
 namespace luciole::LUCIOLE_ISA {
-#include "equations/cpp/wide_lists.inc"
 namespace {
 
 LUCIOLE_FN real3 broadcast(const float v[3]) { return real3(v[0], v[1], v[2]); }
@@ -14,24 +13,19 @@ LUCIOLE_FN real3 broadcast(const float v[3]) { return real3(v[0], v[1], v[2]); }
 constexpr float kSpecularFloor = 0.02f;
 constexpr float kRounding = 1 - 1e-4f;  // so that rounding never loses a light whose rim is in reach
 
-struct WideRecords {
+struct WideLights {
   real3 centre, axis;
   real radius, intensity, scale, offset, two_sided, lamp, xi;
 };
 
-LUCIOLE_FN WideRecords gather_records(const LightRecord* records, const std::uint32_t* lights, const float* xi) {
-  constexpr std::uint32_t kFloats = sizeof(LightRecord) / sizeof(float);
-  alignas(64) std::uint32_t first[kLanes];
-  for (int lane = 0; lane < kLanes; ++lane) first[lane] = lights[lane] * kFloats;
-  const auto member = [&](const float& of_first) { return gather(&of_first, first); };
-  const LightRecord& r = records[0];
-  WideRecords w;
-  w.centre = real3(member(r.x), member(r.y), member(r.z));
-  w.axis = real3(member(r.axis_x), member(r.axis_y), member(r.axis_z));
-  w.radius = member(r.radius), w.intensity = member(r.intensity);
-  w.scale = member(r.scale), w.offset = member(r.offset);
-  w.two_sided = member(r.two_sided), w.lamp = member(r.lamp);
-  if (xi != nullptr) w.xi = gather(xi, lights);
+LUCIOLE_FN WideLights load_lights(const LightRowsView& rows, std::uint32_t first) {
+  const auto row = [&](LightRowsView::Row r) { return load(rows.row[r] + first); };
+  WideLights w;
+  w.centre = real3(row(LightRowsView::kX), row(LightRowsView::kY), row(LightRowsView::kZ));
+  w.axis = real3(row(LightRowsView::kAxisX), row(LightRowsView::kAxisY), row(LightRowsView::kAxisZ));
+  w.radius = row(LightRowsView::kRadius), w.intensity = row(LightRowsView::kIntensity);
+  w.scale = row(LightRowsView::kScale), w.offset = row(LightRowsView::kOffset);
+  w.two_sided = row(LightRowsView::kTwoSided), w.lamp = row(LightRowsView::kLamp), w.xi = row(LightRowsView::kXi);
   return w;
 }
 
@@ -47,7 +41,7 @@ LUCIOLE_FN real specular_reflection(const Receiver& at, real3 normal, real3 to_l
 }
 
 template <Weight weight>
-LUCIOLE_FN real weigh(const WideRecords& light, const Receiver& at, real radiance_floor) {
+LUCIOLE_FN real weigh(const WideLights& light, const Receiver& at, real radiance_floor) {
   const real3 normal = broadcast(at.shading_normal);
   const real3 apart = light.centre - broadcast(at.position);
   const real distance_sq = max(dot(apart, apart), real(1e-30f));
@@ -79,27 +73,14 @@ LUCIOLE_FN real weigh(const WideRecords& light, const Receiver& at, real radianc
   }
 }
 
-template <Weight weight>
-void weigh_all(const LightRecord* records, const std::uint32_t* lights, std::uint32_t count, const Receiver& receiver,
-               const PassRanges& ranges, float* weights) {
-  for (std::uint32_t first = 0; first < count; first += kLanes) {
-    alignas(64) std::uint32_t index[kLanes];
-    alignas(64) float out[kLanes];
-    const std::uint32_t left = count - first;
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) index[lane] = lights[first + (lane < left ? lane : 0)];
-    store(out, weigh<weight>(gather_records(records, index, ranges.xi), receiver, ranges.radiance_floor));
-    for (std::uint32_t lane = 0; lane < kLanes && lane < left; ++lane) weights[first + lane] = out[lane];
-  }
-}
-
 }  // namespace
 
-void weigh_lights(const LightRecord* records, const std::uint32_t* lights, std::uint32_t count,
-                  const Receiver& receiver, Weight weight, const PassRanges& ranges, float* weights) {
-  if (weight == Weight::printed) {
-    weigh_all<Weight::printed>(records, lights, count, receiver, ranges, weights);
-  } else {
-    weigh_all<Weight::reflected>(records, lights, count, receiver, ranges, weights);
+void weigh_lights(const LightRowsView& lights, const Receiver& receiver, Weight weight, float radiance_floor,
+                  float* weights) {
+  for (std::uint32_t first = 0; first < lights.count; first += kLanes) {
+    const WideLights wide = load_lights(lights, first);
+    store(weights + first, weight == Weight::printed ? weigh<Weight::printed>(wide, receiver, radiance_floor)
+                                                     : weigh<Weight::reflected>(wide, receiver, radiance_floor));
   }
 }
 

@@ -19,10 +19,12 @@ struct Receiver {
   float ggx_alpha;
 };
 
-// The ranges of a pass.
-struct PassRanges {
-  const float* xi = nullptr;  // by light; nullptr: every light is in reach
-  float radiance_floor = 0;   // delta / E; 0: weights without culling   [W/(m^2 sr)]
+// What weights depend on, of lights that several receivers share: one row per value, 64-byte aligned, a whole number of
+// 16 lights long.
+struct LightRowsView {
+  enum Row { kX, kY, kZ, kRadius, kAxisX, kAxisY, kAxisZ, kIntensity, kScale, kOffset, kTwoSided, kLamp, kXi, kRows };
+  const float* row[kRows] = {};
+  std::uint32_t count = 0;
 };
 
 enum class Weight : std::uint8_t {
@@ -33,12 +35,13 @@ enum class Weight : std::uint8_t {
   printed
 };
 
-#define LUCIOLE_DECLARE_WEIGH_KERNEL(isa)                                                                              \
-  namespace isa {                                                                                                      \
-  /* weights[k]: of lights[k]. 0 where no part of the light is in reach or above the surface; positive wherever any */ \
-  /* part of it can shine on the surface: else the estimate would miss it. */                                          \
-  void weigh_lights(const LightRecord* records, const std::uint32_t* lights, std::uint32_t count,                      \
-                    const Receiver& receiver, Weight weight, const PassRanges& ranges, float* weights);                \
+#define LUCIOLE_DECLARE_WEIGH_KERNEL(isa)                                                                            \
+  namespace isa {                                                                                                    \
+  /* weights[k]: of light k of the rows, 64-byte aligned, a whole number of 16 long. 0 where no part of the light */ \
+  /* is in reach (I s / l^2 > xi floor) or above the surface; positive wherever any part of it can shine on the */   \
+  /* surface: else the estimate would miss it. */                                                                    \
+  void weigh_lights(const LightRowsView& lights, const Receiver& receiver, Weight weight, float radiance_floor,      \
+                    float* weights);                                                                                 \
   }
 LUCIOLE_DECLARE_WEIGH_KERNEL(avx512)
 LUCIOLE_DECLARE_WEIGH_KERNEL(avx2)

@@ -8,9 +8,45 @@
 
 namespace luciole {
 
+struct Weighing {
+  Weight weight = Weight::reflected;
+  float radiance_floor = 0;
+  Isa isa = Isa::baseline;  // resolved
+};
+
+// Calls use(lights, weights, count) for all lights of the rows, a chunk at a time.
+template <class Use>
+void weigh_in_chunks(const LightRows& rows, const Receiver& receiver, const Weighing& how, const Use& use) {
+  constexpr std::uint32_t kChunk = 256;
+  alignas(64) float weights[kChunk];
+  for (std::uint32_t first = 0; first < rows.size(); first += kChunk) {
+    const LightRowsView view = rows.view(first, rows.size() - first < kChunk ? rows.size() - first : kChunk);
+    LUCIOLE_FOR_ISA(how.isa, weigh_lights(view, receiver, how.weight, how.radiance_floor, weights));
+    use(rows.lights() + first, weights, view.count);
+  }
+}
+
+// The weight of one light, the same bits as among others.
+//   xi  of the light's range; 0: in reach from everywhere
+inline float weight_of(const LightRecord& light, float xi, const Receiver& receiver, const Weighing& how) {
+  thread_local LightRows one;
+  one.clear();
+  one.add(0, light, xi);
+  alignas(64) float weights[16];
+  LUCIOLE_FOR_ISA(how.isa, weigh_lights(one.view(0, 1), receiver, how.weight, how.radiance_floor, weights));
+  return weights[0];
+}
+
 class WeightedChoice {
  public:
   explicit WeightedChoice(double u) : u_(u) {}
+
+  void add(const LightRows& rows, const Receiver& receiver, const Weighing& how) {
+    weigh_in_chunks(rows, receiver, how,
+                    [this](const std::uint32_t* lights, const float* weights, std::uint32_t count) {
+                      add(lights, weights, count);
+                    });
+  }
 
   void add(const std::uint32_t* lights, const float* weights, std::uint32_t count) {
     float chunk = 0;

@@ -37,13 +37,13 @@ RangeTree::RangeTree(const LightSet& lights, float scene_diagonal)
   // Each octave starts a new block.
   std::uint32_t blocks = (lights.size() + kBlockSpheres - 1) / kBlockSpheres + kOctaves;
   light_.resize(std::size_t(blocks) * kBlockSpheres);
+  spheres_.resize(blocks);
   std::uint32_t total = 0;
-  do {
-    first_block_[levels_] = total, total += blocks;
+  for (levels_ = 1; blocks > 1; ++levels_) {
     blocks = (blocks + kBlockSpheres - 1) / kBlockSpheres;
-    ++levels_;
-  } while (total - first_block_[levels_ - 1] > 1);
-  blocks_.resize(total);
+    first_block_[levels_] = total, total += blocks;
+  }
+  nodes_.resize(total);
 }
 
 float RangeTree::range_of(std::uint32_t light) const {
@@ -54,19 +54,15 @@ RangeTree::Sphere RangeTree::sphere_of(std::uint32_t light) const {
   const LightRecord& record = lights_->records()[light];
   const float range = range_of(light);
   if (!(range < scene_diagonal_ * kMostScenes)) return {record.centre(), kEverywhere * kEverywhere};
-  const float radius = (range * record.reach_radius + record.radius) * kRounding;
+  // Not one radius but three: the sphere must hold all that weigh_kernel.cpp takes to be in reach, which is up to
+  // (l - radius)^3 / l > l^2 - 3 radius l, so l < 3 radius + range sqrt(s).
+  const float radius = (range * record.reach_radius + 3 * record.radius) * kRounding;
   return {record.centre() + record.axis() * (range * record.reach_offset), radius * radius};
 }
 
 int RangeTree::octave_of(std::uint32_t light) const {
   const float range = std::min(range_of(light), scene_diagonal_ * kMostScenes);
   return kOctaves - 1 - std::clamp(std::ilogb(range) - smallest_exponent_, 0, kOctaves - 1);  // the largest first
-}
-
-bool RangeTree::overlaps(std::uint32_t light, Vec3 point) const {
-  const Sphere sphere = sphere_of(light);
-  const Vec3 apart = point - sphere.centre;
-  return dot(apart, apart) < sphere.reach_sq;
 }
 
 void RangeTree::draw(std::uint64_t seed, std::uint64_t pass, RangeNumbers numbers, float radiance_floor) {
@@ -113,7 +109,8 @@ void RangeTree::deal() {
       const std::uint32_t count = chunk[octave];
       chunk[octave] = next, next += count;
     }
-    for (; next % kBlockSpheres != 0; ++next) blocks_[next / kBlockSpheres].reach_sq[next % kBlockSpheres] = -1;
+    for (; next % kBlockSpheres != 0; ++next) spheres_[next / kBlockSpheres].reach_sq[next % kBlockSpheres] = -1;
+    octave_end_[octave] = next / kBlockSpheres;
   }
   block_count_[0] = next / kBlockSpheres;
   for_each_chunk(lights, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
@@ -121,7 +118,7 @@ void RangeTree::deal() {
       const auto light = static_cast<std::uint32_t>(i);
       const std::uint32_t place = places[chunk][static_cast<std::size_t>(octave_of(light))]++;
       const Sphere sphere = sphere_of(light);
-      SphereBlock& block = blocks_[place / kBlockSpheres];
+      SphereBlock& block = spheres_[place / kBlockSpheres];
       const std::uint32_t lane = place % kBlockSpheres;
       block.x[lane] = sphere.centre.x, block.y[lane] = sphere.centre.y, block.z[lane] = sphere.centre.z;
       block.reach_sq[lane] = sphere.reach_sq;
@@ -130,44 +127,77 @@ void RangeTree::deal() {
   });
 }
 
-// A sphere round each block of the level below: at the middle of its centres' box.
+namespace {
+
+struct Node {
+  Bounds box;
+  float reach_sq = -1;
+
+  void add(Vec3 low, Vec3 high, float other_reach_sq) {
+    if (other_reach_sq < 0) return;
+    box.grow(low), box.grow(high);
+    reach_sq = std::max(reach_sq, other_reach_sq);
+  }
+};
+
+Node node_round(const SphereBlock& block) {
+  Node node;
+  for (std::uint32_t k = 0; k < kBlockSpheres; ++k) {
+    const Vec3 centre(block.x[k], block.y[k], block.z[k]);
+    node.add(centre, centre, block.reach_sq[k]);
+  }
+  return node;
+}
+
+Node node_round(const NodeBlock& block) {
+  Node node;
+  for (std::uint32_t k = 0; k < kBlockSpheres; ++k) {
+    node.add({block.low[0][k], block.low[1][k], block.low[2][k]},
+             {block.high[0][k], block.high[1][k], block.high[2][k]}, block.reach_sq[k]);
+  }
+  return node;
+}
+
+}  // namespace
+
+// A node round each block of the level below.
 void RangeTree::build_level(std::uint32_t level) {
-  const SphereBlock* below = blocks_.data() + first_block_[level - 1];
-  SphereBlock* above = blocks_.data() + first_block_[level];
+  NodeBlock* blocks = nodes_.data() + first_block_[level];
   const std::uint32_t children = block_count_[level - 1];
   block_count_[level] = (children + kBlockSpheres - 1) / kBlockSpheres;
   parallel_for(block_count_[level], 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t child = begin * kBlockSpheres; child < end * kBlockSpheres; ++child) {
-      SphereBlock& block = above[child / kBlockSpheres];
+      Node node;
+      if (child < children) {
+        node = level == 1 ? node_round(spheres_[child]) : node_round(nodes_[first_block_[level - 1] + child]);
+      }
+      NodeBlock& block = blocks[child / kBlockSpheres];
       const std::size_t lane = child % kBlockSpheres;
-      block.x[lane] = block.y[lane] = block.z[lane] = 0, block.reach_sq[lane] = -1;
-      if (child >= children) continue;
-      const SphereBlock& held = below[child];
-      Bounds box;
-      for (std::uint32_t k = 0; k < kBlockSpheres; ++k) {
-        if (held.reach_sq[k] >= 0) box.grow({held.x[k], held.y[k], held.z[k]});
-      }
-      const Vec3 centre = box.centre();
-      float radius = -1;
-      for (std::uint32_t k = 0; k < kBlockSpheres; ++k) {
-        if (held.reach_sq[k] < 0) continue;
-        radius = std::max(radius, length(Vec3(held.x[k], held.y[k], held.z[k]) - centre) + std::sqrt(held.reach_sq[k]));
-      }
-      block.x[lane] = centre.x, block.y[lane] = centre.y, block.z[lane] = centre.z;
-      block.reach_sq[lane] = radius * radius * kRounding;
+      block.low[0][lane] = node.box.low.x, block.low[1][lane] = node.box.low.y, block.low[2][lane] = node.box.low.z;
+      block.high[0][lane] = node.box.high.x, block.high[1][lane] = node.box.high.y;
+      block.high[2][lane] = node.box.high.z;
+      block.reach_sq[lane] = node.reach_sq;
     }
   });
 }
 
+std::uint32_t RangeTree::first_block_below(float range) const {
+  // Octaves whose least range is at least `range`; the last one has no least range.
+  const int exponent = std::ilogb(std::max(range, 1e-30f)) + 1;
+  const int octaves = std::clamp(smallest_exponent_ + kOctaves - exponent, 0, kOctaves - 1);
+  return octaves == 0 ? 0 : octave_end_[octaves - 1];
+}
+
 SphereTree RangeTree::tree() const {
   SphereTree tree;
-  tree.blocks = blocks_.data(), tree.light = light_.data(), tree.levels = levels_;
+  tree.spheres = spheres_.data(), tree.nodes = nodes_.data(), tree.light = light_.data(), tree.levels = levels_;
   std::copy(std::begin(first_block_), std::end(first_block_), std::begin(tree.first_block));
   return tree;
 }
 
 std::uint64_t RangeTree::memory_bytes() const {
-  return xi_.size() * sizeof(float) + light_.size() * sizeof(std::uint32_t) + blocks_.size() * sizeof(SphereBlock);
+  return xi_.size() * sizeof(float) + light_.size() * sizeof(std::uint32_t) + spheres_.size() * sizeof(SphereBlock) +
+         nodes_.size() * sizeof(NodeBlock);
 }
 
 }  // namespace luciole

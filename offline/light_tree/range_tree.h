@@ -32,19 +32,19 @@ class RangeTree {
   void clamp_all(float xi, float radiance_floor);
 
   SphereTree tree() const;
+  std::uint32_t block_count() const { return block_count_[0]; }  // of level 0
+  // Before this block of level 0 all lights have ranges of at least `range`, from it on less than twice that.
+  std::uint32_t first_block_below(float range) const;
   float xi(std::uint32_t light) const { return xi_[light]; }
   const float* xi() const { return xi_.data(); }
-  // Whether the light's sphere holds the point: what the walk through the tree finds.
-  bool overlaps(std::uint32_t light, Vec3 point) const;
   std::uint64_t memory_bytes() const;
 
  private:
+  static constexpr int kOctaves = 32;
   struct Sphere {
     Vec3 centre;
     float reach_sq;
   };
-  static constexpr int kOctaves = 32;
-
   Sphere sphere_of(std::uint32_t light) const;
   int octave_of(std::uint32_t light) const;
   float range_of(std::uint32_t light) const;
@@ -54,10 +54,12 @@ class RangeTree {
 
   const LightSet* lights_ = nullptr;
   float scene_diagonal_ = 0, radiance_floor_ = 0;
-  int smallest_exponent_ = 0;  // of octave 0
+  int smallest_exponent_ = 0;                // of the last octave
+  std::uint32_t octave_end_[kOctaves] = {};  // in blocks of level 0
   std::vector<float> xi_;
   std::vector<std::uint32_t> light_;  // by sphere of level 0
-  AlignedVector<SphereBlock> blocks_;
+  AlignedVector<SphereBlock> spheres_;
+  AlignedVector<NodeBlock> nodes_;
   std::uint32_t levels_ = 0, first_block_[SphereTree::kMostLevels] = {}, block_count_[SphereTree::kMostLevels] = {};
 };
 

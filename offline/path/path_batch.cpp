@@ -23,9 +23,13 @@ void copy(Vec3 from, float to[3]) { to[0] = from.x, to[1] = from.y, to[2] = from
 // The balance heuristic: weight of a technique beside another one.   [Veach and Guibas 1995]
 float balance(float own, float other) { return own / (own + other); }
 
+// Surface points that share their candidates. Sixteen along the curve lie close together.
+constexpr std::uint32_t kGroup = 16;
+
 // Pixels of a tile in the order of 4x4 blocks: one packet each.
-std::uint32_t block_x(std::uint32_t i) { return (i / 16 % 4) * 4 + i % 4; }
-std::uint32_t block_y(std::uint32_t i) { return (i / 64) * 4 + i / 4 % 4; }
+constexpr std::uint32_t kBlocks = PathBatch::kSide / 4;
+std::uint32_t block_x(std::uint32_t i) { return (i / 16 % kBlocks) * 4 + i % 4; }
+std::uint32_t block_y(std::uint32_t i) { return (i / 16 / kBlocks) * 4 + i / 4 % 4; }
 
 }  // namespace
 
@@ -46,6 +50,7 @@ void PathBatch::render(std::uint32_t left, std::uint32_t top, FilmSample* sample
   const std::vector<std::uint32_t> all = active_;
   for (std::uint32_t scattering = 0; scattering <= context_.settings.bounces && !active_.empty(); ++scattering) {
     trace_all(scattering);
+    scatter_all(scattering);
     trace_shadow_rays();
   }
   for (const std::uint32_t index : all) {
@@ -76,7 +81,7 @@ void PathBatch::begin(std::uint32_t left, std::uint32_t top) {
 
 void PathBatch::trace_all(std::uint32_t scattering) {
   const Coherence coherence = scattering == 0 ? Coherence::coherent : Coherence::incoherent;
-  std::size_t kept = 0;
+  arrivals_.clear();
   for (std::size_t first = 0; first < active_.size(); first += kPacketRays) {
     const auto count = static_cast<int>(std::min<std::size_t>(kPacketRays, active_.size() - first));
     RayPacket packet;
@@ -97,13 +102,13 @@ void PathBatch::trace_all(std::uint32_t scattering) {
         continue;
       }
       const SurfaceHit hit{hits.mesh[lane], hits.triangle[lane], hits.u[lane], hits.v[lane]};
-      if (arrive(paths_[index], hit, hits.distance[lane], scattering)) active_[kept++] = index;
+      arrive(index, hit, hits.distance[lane], scattering);
     }
   }
-  active_.resize(kept);
 }
 
-bool PathBatch::arrive(Path& path, const SurfaceHit& hit, float distance, std::uint32_t scattering) {
+void PathBatch::arrive(std::uint32_t index, const SurfaceHit& hit, float distance, std::uint32_t scattering) {
+  Path& path = paths_[index];
   // Textures at the camera's footprint where the eye sees them; behind a reflection at their finest, as shadow rays see
   // emitters.
   const float cone =
@@ -114,16 +119,53 @@ bool PathBatch::arrive(Path& path, const SurfaceHit& hit, float distance, std::u
     path.normal = point.shading_normal;
   }
   if (!is_black(point.emission)) add_emission(path, hit, point);
-  if (scattering == context_.settings.bounces) return false;
-  const Bsdf bsdf(point, -path.direction);
-  return scatter(path, point, bsdf, scattering);
+  if (scattering < context_.settings.bounces) arrivals_.push_back({place_of(point.position), index, point});
 }
 
-bool PathBatch::scatter(Path& path, const SurfacePoint& point, const Bsdf& bsdf, std::uint32_t scattering) {
-  const auto index = static_cast<std::uint32_t>(&path - paths_.data());
-  path.from = receiver_of(point, -path.direction);
-  ask_finite_light(path, index, point, bsdf);
-  if (!context_.infinite.empty()) ask_infinite_light(path, index, point, bsdf);
+std::uint32_t PathBatch::place_of(Vec3 position) const {
+  const Bounds& box = context_.rays.bounds();
+  const float size = std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z, 1e-20f});
+  const Vec3 cell = (position - box.low) * (1023 / size);
+  const auto whole = [](float x) { return static_cast<std::uint32_t>(std::clamp(x, 0.0f, 1023.0f)); };
+  return f32::morton_code(whole(cell.x), whole(cell.y), whole(cell.z));
+}
+
+// Clusters the surface points: neighbours walk through the tree of lights together, and what they send out next starts
+// close together as well.
+void PathBatch::scatter_all(std::uint32_t scattering) {
+  order_.clear();
+  for (std::uint32_t i = 0; i < arrivals_.size(); ++i) order_.emplace_back(arrivals_[i].place, i);
+  // What the camera sees comes in packets of neighbours already.
+  if (scattering > 0) std::sort(order_.begin(), order_.end());
+  active_.clear();
+  std::uint32_t group[kGroup];
+  for (std::size_t first = 0; first < order_.size(); first += kGroup) {
+    const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kGroup, order_.size() - first));
+    for (std::uint32_t i = 0; i < count; ++i) group[i] = order_[first + i].second;
+    scatter_group(group, count, scattering);
+  }
+}
+
+void PathBatch::scatter_group(const std::uint32_t* arrivals, std::uint32_t count, std::uint32_t scattering) {
+  Receiver receivers[kGroup];
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Arrival& arrival = arrivals_[arrivals[i]];
+    Path& path = paths_[arrival.path];
+    path.from = receivers[i] = receiver_of(arrival.point, -path.direction);
+  }
+  context_.sampler.share_candidates(receivers, count, candidates_);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Arrival& arrival = arrivals_[arrivals[i]];
+    const Bsdf bsdf(arrival.point, -paths_[arrival.path].direction);
+    if (scatter(arrival, bsdf, scattering)) active_.push_back(arrival.path);
+  }
+}
+
+bool PathBatch::scatter(const Arrival& arrival, const Bsdf& bsdf, std::uint32_t scattering) {
+  Path& path = paths_[arrival.path];
+  const SurfacePoint& point = arrival.point;
+  if (context_.lights.size() > 0) ask_finite_light(arrival, bsdf);
+  if (!context_.infinite.empty()) ask_infinite_light(arrival, bsdf);
   const Vec2 place = path.numbers.pair(), lobe_and_roulette = path.numbers.pair();
   const BsdfSample next = bsdf.sample(place, lobe_and_roulette.x);
   if (!(next.pdf > 0)) return false;
@@ -161,11 +203,12 @@ void PathBatch::add_emission(Path& path, const SurfaceHit& hit, const SurfacePoi
   path.radiance += path.throughput * point.emission * weight;
 }
 
-void PathBatch::ask_finite_light(Path& path, std::uint32_t index, const SurfacePoint& point, const Bsdf& bsdf) {
-  if (context_.lights.size() == 0) return;
+void PathBatch::ask_finite_light(const Arrival& arrival, const Bsdf& bsdf) {
+  Path& path = paths_[arrival.path];
+  const SurfacePoint& point = arrival.point;
   const f32::RandomWords choice = path.numbers.pair_of_words();
   const Vec2 place = path.numbers.pair();
-  const ChosenLight chosen = context_.sampler.choose(path.from, choice.first * 0x1p-32, path.choice);
+  const ChosenLight chosen = context_.sampler.choose(path.from, candidates_, choice.first * 0x1p-32, path.choice);
   ++statistics_.light_choices, statistics_.candidates += chosen.weighed;
   if (chosen.light == kNoLight) return;
   const LightRecord& record = context_.lights.records()[chosen.light];
@@ -183,10 +226,12 @@ void PathBatch::ask_finite_light(Path& path, std::uint32_t index, const SurfaceP
   const float density = chosen.pmf * acceptance * light.pdf;
   const Vec3 end = record.lamp > 0 ? light.position : context_.rays.offset_from_surface(light.position, light.normal);
   shadow_rays_.push_back({context_.rays.offset_from_surface(point.position, point.geometric_normal), end,
-                          path.throughput * reflected * light.radiance * (weight / density), index});
+                          path.throughput * reflected * light.radiance * (weight / density), arrival.path});
 }
 
-void PathBatch::ask_infinite_light(Path& path, std::uint32_t index, const SurfacePoint& point, const Bsdf& bsdf) {
+void PathBatch::ask_infinite_light(const Arrival& arrival, const Bsdf& bsdf) {
+  Path& path = paths_[arrival.path];
+  const SurfacePoint& point = arrival.point;
   const f32::RandomWords choice = path.numbers.pair_of_words();
   const InfiniteLightSample light = context_.infinite.sample(choice.first * 0x1p-32, path.numbers.pair());
   if (!(light.pdf > 0)) return;
@@ -196,7 +241,7 @@ void PathBatch::ask_infinite_light(Path& path, std::uint32_t index, const Surfac
   const Vec3 origin = context_.rays.offset_from_surface(point.position, point.geometric_normal);
   const float beyond = 2 * context_.rays.bounds().diagonal() + length(origin - context_.rays.bounds().centre());
   shadow_rays_.push_back({origin, origin + light.direction * beyond,
-                          path.throughput * reflected * light.radiance * (weight / light.pdf), index});
+                          path.throughput * reflected * light.radiance * (weight / light.pdf), arrival.path});
 }
 
 void PathBatch::trace_shadow_rays() {

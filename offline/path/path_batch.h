@@ -3,6 +3,7 @@
 // done to each surface point stays in the cache.
 #pragma once
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "offline/film/film.h"
@@ -36,7 +37,9 @@ struct ShadowRay {
 
 class PathBatch {
  public:
-  static constexpr std::uint32_t kSide = 16;  // pixels
+  // [pixels]: large, so that what reflections meet lies close enough to share its candidates (kGroup); small, so that
+  // the paths stay in the cache.
+  static constexpr std::uint32_t kSide = 32;
   static constexpr std::uint32_t kPaths = kSide * kSide;
 
   explicit PathBatch(const PathContext& context) : context_(context), paths_(kPaths) {}
@@ -56,22 +59,32 @@ class PathBatch {
     ChoiceMemory choice;
     float bsdf_pdf = 0;  // 0: camera ray, nothing else could have found what it hits
   };
+  // A surface point that looks for light and scatters its path.
+  struct Arrival {
+    std::uint32_t place, path;  // place: on a Morton curve through the scene
+    SurfacePoint point;
+  };
 
   void begin(std::uint32_t left, std::uint32_t top);
   void trace_all(std::uint32_t scattering);
-  // Each returns whether the path goes on.
-  bool arrive(Path& path, const SurfaceHit& hit, float distance, std::uint32_t scattering);
-  bool scatter(Path& path, const SurfacePoint& point, const Bsdf& bsdf, std::uint32_t scattering);
+  void arrive(std::uint32_t index, const SurfaceHit& hit, float distance, std::uint32_t scattering);
+  void scatter_all(std::uint32_t scattering);
+  void scatter_group(const std::uint32_t* arrivals, std::uint32_t count, std::uint32_t scattering);
+  bool scatter(const Arrival& arrival, const Bsdf& bsdf, std::uint32_t scattering);  // whether the path goes on
 
   void add_sky(Path& path) const;
   void add_emission(Path& path, const SurfaceHit& hit, const SurfacePoint& point) const;
-  void ask_finite_light(Path& path, std::uint32_t index, const SurfacePoint& point, const Bsdf& bsdf);
-  void ask_infinite_light(Path& path, std::uint32_t index, const SurfacePoint& point, const Bsdf& bsdf);
+  void ask_finite_light(const Arrival& arrival, const Bsdf& bsdf);
+  void ask_infinite_light(const Arrival& arrival, const Bsdf& bsdf);
   void trace_shadow_rays();
+  std::uint32_t place_of(Vec3 position) const;
 
   const PathContext& context_;
   std::vector<Path> paths_;
-  std::vector<std::uint32_t> active_;  // paths that go on, in order
+  std::vector<std::uint32_t> active_;  // paths that go on, in the order of their last surface points' places
+  std::vector<Arrival> arrivals_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> order_;  // (place, arrival)
+  Candidates candidates_;
   std::vector<ShadowRay> shadow_rays_;
   PathStatistics statistics_;
 };

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights laid out for weigh_kernel.h, in memory that is kept from group to group.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/aligned_vector.h"
+#include "offline/light_sample/weigh_kernel.h"
+
+namespace luciole {
+
+class LightRows {
+ public:
+  void clear() { lights_.clear(); }
+  // Forgets all but the first `count` lights.
+  void shorten(std::uint32_t count) { lights_.resize(count); }
+  // xi: of the light in this pass; 0 where no range counts.
+  void add(std::uint32_t light, const LightRecord& record, float xi) {
+    const std::size_t at = lights_.size();
+    if (at >= rows_[0].size()) grow();
+    lights_.push_back(light);
+    const float values[LightRowsView::kRows] = {record.x,
+                                                record.y,
+                                                record.z,
+                                                record.radius,
+                                                record.axis_x,
+                                                record.axis_y,
+                                                record.axis_z,
+                                                record.intensity,
+                                                record.scale,
+                                                record.offset,
+                                                record.two_sided,
+                                                record.lamp,
+                                                xi};
+    for (std::size_t r = 0; r < LightRowsView::kRows; ++r) rows_[r][at] = values[r];
+  }
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(lights_.size()); }
+  const std::uint32_t* lights() const { return lights_.data(); }
+  // `count` lights from `first` on; first is a multiple of 16.
+  LightRowsView view(std::uint32_t first, std::uint32_t count) const {
+    LightRowsView view;
+    for (std::size_t r = 0; r < LightRowsView::kRows; ++r) view.row[r] = rows_[r].data() + first;
+    view.count = count;
+    return view;
+  }
+  std::uint64_t memory_bytes() const {
+    return rows_[0].size() * sizeof(float) * LightRowsView::kRows + lights_.capacity() * sizeof(std::uint32_t);
+  }
+
+ private:
+  void grow() {
+    for (AlignedVector<float>& row : rows_) {
+      const std::size_t before = row.size();
+      row.resize(before == 0 ? 256 : before * 2);
+      std::fill(row.begin() + static_cast<std::ptrdiff_t>(before), row.end(), 0.0f);  // what pads the last 16
+    }
+  }
+
+  std::array<AlignedVector<float>, LightRowsView::kRows> rows_;
+  std::vector<std::uint32_t> lights_;
+};
+
+}  // namespace luciole
