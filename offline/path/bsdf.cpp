@@ -33,7 +33,7 @@ TangentFrame::TangentFrame(Vec3 normal) : z(normal) {
   y = {b, sign + normal.y * normal.y * a, -normal.y};
 }
 
-Bsdf::Bsdf(const SurfacePoint& point, Vec3 to_eye)
+Bsdf::Bsdf(const SurfacePoint& point, Vec3 to_eye, float diffuse_share)
     : diffuse_albedo_(point.diffuse_albedo), geometric_normal_(point.geometric_normal), ggx_alpha_(point.ggx_alpha) {
   fixed_ =
       f32::fix_direction({point.diffuse_albedo, point.f0, point.f90, point.ggx_alpha}, point.shading_normal, to_eye);
@@ -43,6 +43,7 @@ Bsdf::Bsdf(const SurfacePoint& point, Vec3 to_eye)
   // At least a tenth for each lobe that there is: the other's estimate of its share is rough.
   specular_chance_ = diffuse > 0 ? std::clamp(specular / std::max(specular + diffuse, 1e-12f), 0.1f, 0.9f) : 1.0f;
   if (!(specular > 0)) specular_chance_ = 0;
+  diffuse_chance_ = (1 - specular_chance_) * diffuse_share;
 }
 
 Vec3 Bsdf::evaluate(Vec3 direction) const {
@@ -54,7 +55,7 @@ Vec3 Bsdf::evaluate(Vec3 direction) const {
 float Bsdf::pdf(Vec3 direction) const {
   if (!above(direction)) return 0;
   const float cosine = dot(direction, fixed_.normal);
-  float density = (1 - specular_chance_) * cosine * kInversePi;
+  float density = diffuse_chance_ * cosine * kInversePi;
   if (specular_chance_ > 0) {
     // Visible normals: G1(eye) D / (4 cos_eye), where G1 / (2 cos_eye) = 1 / (cos_eye + masking).   [Heitz 2018]
     const Vec3 half = direction + fixed_.fixed_direction;
@@ -74,6 +75,7 @@ BsdfSample Bsdf::sample(Vec2 place, float lobe) const {
     const Vec3 normal = frame.world(visible_normal(frame.local(to_eye), ggx_alpha_, place));
     direction = normalize(normal * (2 * dot(normal, to_eye)) - to_eye);
   } else {
+    if (lobe >= specular_chance_ + diffuse_chance_) return {};
     const float radius = std::sqrt(place.y), azimuth = 2 * kPi * place.x;
     direction = frame.world(
         Vec3(radius * std::cos(azimuth), radius * std::sin(azimuth), std::sqrt(std::max(1 - place.y, 0.0f))));

@@ -16,8 +16,10 @@ struct BsdfSample {
 
 class Bsdf {
  public:
-  // to_eye: unit, towards the path's previous vertex.
-  Bsdf(const SurfacePoint& point, Vec3 to_eye);
+  //   to_eye         unit, towards the path's previous vertex
+  //   diffuse_share  of the directions that the diffuse lobe would sample, how many it does; for the others `sample`
+  //                  gives none, and densities are smaller in proportion   (0, 1]
+  Bsdf(const SurfacePoint& point, Vec3 to_eye, float diffuse_share = 1);
 
   // BRDF times cosine [1/sr].
   Vec3 evaluate(Vec3 direction) const;
@@ -38,7 +40,7 @@ class Bsdf {
   f32::FixedDirectionBrdf fixed_;
   Vec3 diffuse_albedo_, geometric_normal_;
   float ggx_alpha_;
-  float specular_chance_;  // of sampling the GGX lobe
+  float specular_chance_, diffuse_chance_;  // of sampling the lobe
 };
 
 // Two unit vectors that complete a unit `normal` to a right-handed frame.   [Duff et al. 2017]

@@ -156,9 +156,18 @@ void PathBatch::scatter_group(const std::uint32_t* arrivals, std::uint32_t count
   context_.sampler.share_candidates(receivers, count, candidates_);
   for (std::uint32_t i = 0; i < count; ++i) {
     const Arrival& arrival = arrivals_[arrivals[i]];
-    const Bsdf bsdf(arrival.point, -paths_[arrival.path].direction);
+    const bool last = scattering + 1 == context_.settings.bounces;
+    const Bsdf bsdf(arrival.point, -paths_[arrival.path].direction, last ? last_diffuse_share() : 1.0f);
     if (scatter(arrival, bsdf, scattering)) active_.push_back(arrival.path);
   }
+}
+
+// A path's last ray can only meet emitters, which shadow rays find better, unless a lobe is narrow: most of the diffuse
+// ones are saved, and multiple importance sampling knows. A constant sky is found by them alone.
+float PathBatch::last_diffuse_share() const {
+  constexpr float kShare = 0.25f;
+  const Environment& sky = context_.rays.scene().environment;
+  return sky.pixels.empty() && !is_black(sky.radiance) ? 1.0f : kShare;
 }
 
 bool PathBatch::scatter(const Arrival& arrival, const Bsdf& bsdf, std::uint32_t scattering) {

@@ -72,6 +72,7 @@ class PathBatch {
   void scatter_group(const std::uint32_t* arrivals, std::uint32_t count, std::uint32_t scattering);
   bool scatter(const Arrival& arrival, const Bsdf& bsdf, std::uint32_t scattering);  // whether the path goes on
 
+  float last_diffuse_share() const;
   void add_sky(Path& path) const;
   void add_emission(Path& path, const SurfaceHit& hit, const SurfacePoint& point) const;
   void ask_finite_light(const Arrival& arrival, const Bsdf& bsdf);
