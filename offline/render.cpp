@@ -18,6 +18,7 @@ struct PathTracer::State {
   LightSet lights;
   InfiniteLights infinite;
   CameraRays camera;
+  VisibleEmitters visible;
   std::unique_ptr<LightSampler> sampler;
   PathStatistics statistics;
   std::vector<FilmSample> samples;  // of one pass
@@ -29,6 +30,7 @@ struct PathTracer::State {
         lights(rays.scene()),
         infinite(rays.scene()),
         camera(view, with_focus(wanted, rays, view)),
+        visible(rays, lights, camera, settings),
         bvh_build_ms(0) {}
 
   static PathSettings with_focus(PathSettings settings, const RayScene& rays, const Camera& view) {
@@ -67,7 +69,8 @@ Result<PathTracer> PathTracer::create(std::shared_ptr<const Scene> scene, const 
 bool PathTracer::add_sample(Film& film) {
   State& s = *state_;
   s.sampler->begin_pass(film.range().end);
-  const PathContext context{s.rays, s.lights, s.infinite, *s.sampler, s.camera, s.settings, film.range().end};
+  const PathContext context{s.rays,   s.lights,  s.infinite, *s.sampler,
+                            s.camera, s.visible, s.settings, film.range().end};
   const std::uint32_t columns = (s.settings.width + PathBatch::kSide - 1) / PathBatch::kSide;
   const std::uint32_t rows = (s.settings.height + PathBatch::kSide - 1) / PathBatch::kSide;
   std::mutex guard;
@@ -82,6 +85,7 @@ bool PathTracer::add_sample(Film& film) {
     pass += batch.statistics();
   });
   if (stop_requested()) return false;
+  pass.rays += s.visible.add_to(film.range().end, s.samples);
   s.statistics += pass;
   film.add(s.samples);
   return true;
@@ -91,7 +95,7 @@ const PathSettings& PathTracer::settings() const { return state_->settings; }
 const PathStatistics& PathTracer::statistics() const { return state_->statistics; }
 std::uint64_t PathTracer::light_count() const { return state_->lights.size(); }
 std::uint64_t PathTracer::light_bytes() const {
-  return state_->lights.memory_bytes() + state_->sampler->memory_bytes();
+  return state_->lights.memory_bytes() + state_->visible.memory_bytes() + state_->sampler->memory_bytes();
 }
 double PathTracer::bvh_build_ms() const { return state_->bvh_build_ms; }
 

@@ -78,31 +78,47 @@ LightPoint lamp_point(const Scene& scene, const LightRecord& light, Vec3 receive
 
 }  // namespace
 
-LightPoint sample_light_point(const Scene& scene, const LightRecord& light, Vec3 receiver, Vec2 u) {
-  if (light.lamp > 0) return lamp_point(scene, light, receiver);
-  const Corners t(scene, light);
-  Vec2 place;
-  float solid_angle = 0;
-  if (is_large(light, receiver)) {
-    const SphericalTriangle seen = seen_from(t, receiver);
-    solid_angle = static_cast<float>(seen.solid_angle());
-    if (!(solid_angle > 0)) return {};
-    const SphericalTriangle::Vector d = seen.sample(u.x, u.y);
-    place = barycentric(t, receiver, {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)});
-  } else {
-    const float root = std::sqrt(u.x);
-    place = {1 - root, u.y * root};
-  }
+namespace {
+
+Vec2 uniform_place(Vec2 u) {
+  const float root = std::sqrt(u.x);
+  return {1 - root, u.y * root};
+}
+
+// The point of a triangle at a barycentric place, with its radiance, but without pdf; black if it shows its dark side.
+LightPoint triangle_point(const Scene& scene, const LightRecord& light, const Corners& t, Vec3 receiver, Vec2 place) {
   LightPoint point;
   point.position = t.a * (1 - place.x - place.y) + t.b * place.x + t.c * place.y;
   if (!set_geometry(light, receiver, point)) return {};
-  point.pdf = solid_angle > 0 ? 1 / solid_angle : area_pdf(t, point);
   const SurfaceHit hit{light.mesh, light.triangle, place.x, place.y};
   const Material& material = scene.materials[scene.meshes[light.mesh].material];
   point.radiance = emission_at(scene, hit, kFinestLevel);
   // Holes shine not; what blends shines as much as it covers.
   if (material.alpha_mode == AlphaMode::mask && !alpha_passes(scene, hit)) point.radiance = {0, 0, 0};
   if (material.alpha_mode == AlphaMode::blend) point.radiance *= surface_alpha(scene, hit);
+  return point;
+}
+
+}  // namespace
+
+LightPoint uniform_light_point(const Scene& scene, const LightRecord& light, Vec3 receiver, Vec2 u) {
+  return triangle_point(scene, light, Corners(scene, light), receiver, uniform_place(u));
+}
+
+LightPoint sample_light_point(const Scene& scene, const LightRecord& light, Vec3 receiver, Vec2 u) {
+  if (light.lamp > 0) return lamp_point(scene, light, receiver);
+  const Corners t(scene, light);
+  if (!is_large(light, receiver)) {
+    LightPoint point = triangle_point(scene, light, t, receiver, uniform_place(u));
+    if (point.place.factor > 0) point.pdf = area_pdf(t, point);
+    return point;
+  }
+  const SphericalTriangle seen = seen_from(t, receiver);
+  if (!(seen.solid_angle() > 0)) return {};
+  const SphericalTriangle::Vector d = seen.sample(u.x, u.y);
+  const Vec3 direction(static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z));
+  LightPoint point = triangle_point(scene, light, t, receiver, barycentric(t, receiver, direction));
+  if (point.place.factor > 0) point.pdf = static_cast<float>(1 / seen.solid_angle());
   return point;
 }
 

@@ -22,6 +22,9 @@ struct LightPoint {
 //   u  two numbers in (0,1)
 LightPoint sample_light_point(const Scene& scene, const LightRecord& light, Vec3 receiver, Vec2 u);
 
+// Uniform over the triangle's area, whatever the receiver; without pdf.
+LightPoint uniform_light_point(const Scene& scene, const LightRecord& light, Vec3 receiver, Vec2 u);
+
 // What sample_light_point says of the point of a triangle light that a ray from the receiver has hit; without radiance.
 //   direction  unit
 LightPoint light_point_hit(const Scene& scene, const LightRecord& light, Vec3 receiver, Vec3 direction, Vec3 position);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "offline/light_sample/light_point.h"
+#include "scene/emissive_triangles.h"
 #include "scene/sky.h"
 #include "scene/surface.h"
 
@@ -12,6 +13,7 @@ namespace luciole {
 namespace {
 
 constexpr float kFar = 1e30f;
+constexpr float kFinestLevel = -20;          // of textures' detail
 constexpr std::uint32_t kFirstRoulette = 3;  // scatterings before paths are ended at random
 
 float mean(Vec3 v) { return (v.x + v.y + v.z) * (1.0f / 3.0f); }
@@ -71,7 +73,7 @@ void PathBatch::begin(std::uint32_t left, std::uint32_t top) {
     path.numbers = SampleSequence(seed, path.pixel, context_.sample);
     const Vec2 place = path.numbers.pair(), lens = path.numbers.pair();
     const CameraRay ray = context_.camera.ray(x, y, place, lens);
-    path.origin = ray.origin, path.direction = ray.direction;
+    path.origin = ray.origin, path.direction = ray.direction, path.film_offset = ray.offset;
     path.throughput = {1, 1, 1};
     path.radiance = path.albedo = path.normal = {0, 0, 0};
     path.bsdf_pdf = 0;
@@ -118,7 +120,7 @@ void PathBatch::arrive(std::uint32_t index, const SurfaceHit& hit, float distanc
     path.albedo = point.diffuse_albedo + point.f0;
     path.normal = point.shading_normal;
   }
-  if (!is_black(point.emission)) add_emission(path, hit, point);
+  if (!is_black(point.emission)) add_emission(path, hit, distance, point);
   if (scattering < context_.settings.bounces) arrivals_.push_back({place_of(point.position), index, point});
 }
 
@@ -198,18 +200,22 @@ void PathBatch::add_sky(Path& path) const {
   path.radiance += path.throughput * radiance * weight;
 }
 
-void PathBatch::add_emission(Path& path, const SurfaceHit& hit, const SurfacePoint& point) const {
-  float weight = 1;
+void PathBatch::add_emission(Path& path, const SurfaceHit& hit, float distance, const SurfacePoint& point) const {
   const std::uint32_t light = context_.lights.light_of(hit.mesh, hit.triangle);
-  if (path.bsdf_pdf > 0 && light != kNoLight) {
+  Vec3 radiance = point.emission;
+  float weight = 1;
+  if (light != kNoLight && path.bsdf_pdf > 0) {
     const LightPoint seen = light_point_hit(context_.rays.scene(), context_.lights.records()[light],
                                             point_of(path.from.position), path.direction, point.position);
     if (seen.pdf > 0) {
       const float pmf = context_.sampler.assumed_pmf(light, path.from, path.choice, seen.place, path.numbers.bits());
       weight = balance(path.bsdf_pdf, pmf * seen.pdf);
     }
+  } else if (light != kNoLight) {
+    radiance = emission_at(context_.rays.scene(), hit, kFinestLevel);  // as projected points see it
+    weight = context_.visible.weight_of_camera_ray(light, {path.origin, path.direction, path.film_offset}, distance);
   }
-  path.radiance += path.throughput * point.emission * weight;
+  path.radiance += path.throughput * radiance * weight;
 }
 
 void PathBatch::ask_finite_light(const Arrival& arrival, const Bsdf& bsdf) {

@@ -12,6 +12,7 @@
 #include "offline/path/bsdf.h"
 #include "offline/path/camera_rays.h"
 #include "offline/path/sample_sequence.h"
+#include "offline/path/visible_emitters.h"
 #include "offline/render.h"
 #include "ray_tracing/ray_scene.h"
 
@@ -24,6 +25,7 @@ struct PathContext {
   const InfiniteLights& infinite;
   const LightSampler& sampler;
   const CameraRays& camera;
+  const VisibleEmitters& visible;
   const PathSettings& settings;
   std::uint64_t sample = 0;
 };
@@ -57,7 +59,8 @@ class PathBatch {
     // The surface point that the ray left; none for camera rays.
     Receiver from;
     ChoiceMemory choice;
-    float bsdf_pdf = 0;  // 0: camera ray, nothing else could have found what it hits
+    float bsdf_pdf = 0;  // 0: camera ray
+    Vec2 film_offset;
   };
   // A surface point that looks for light and scatters its path.
   struct Arrival {
@@ -74,7 +77,7 @@ class PathBatch {
 
   float last_diffuse_share() const;
   void add_sky(Path& path) const;
-  void add_emission(Path& path, const SurfaceHit& hit, const SurfacePoint& point) const;
+  void add_emission(Path& path, const SurfaceHit& hit, float distance, const SurfacePoint& point) const;
   void ask_finite_light(const Arrival& arrival, const Bsdf& bsdf);
   void ask_infinite_light(const Arrival& arrival, const Bsdf& bsdf);
   void trace_shadow_rays();
