@@ -5,9 +5,9 @@
 
 namespace luciole {
 
-// Rooms (most of what one sees from their middle are fronts of surfaces) are seen from inside: from a third of their
-// height, near one end of the longer horizontal side, along it. Objects are seen whole, from outside and a little
-// above.
+// Rooms (scene/room_or_object.h) are seen from inside: from a third of their height, near one end of the longer
+// horizontal side, along it. Everything else is seen whole, from outside and a little above, from the side where it is
+// open.
 Camera framing_camera(const Scene& scene);
 
 }  // namespace luciole

@@ -6,7 +6,6 @@
 #include "scene/default_lights.h"
 #include "scene/describe.h"
 #include "scene/emissive_triangles.h"
-#include "scene/framing_camera.h"
 #include "scene/gltf_test_files.h"
 
 namespace luciole::test {
@@ -109,32 +108,6 @@ TEST(DefaultLights, come_only_where_nothing_shines) {
   glowing["materials"][0]["emissiveFactor"] = {1, 1, 1};
   Result<Scene> lit = load(glowing);
   EXPECT_TRUE(add_default_lights(*lit).empty());
-}
-
-// A box of side 2 round the origin; `inward`: its fronts are seen from inside.
-Scene box(bool inward) {
-  Scene scene;
-  Mesh mesh;
-  for (int i = 0; i < 8; ++i) {
-    mesh.positions.emplace_back(i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f);
-  }
-  const std::uint32_t quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                     {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-  for (const auto& q : quads) {
-    for (const int corner : {0, 1, 2, 0, 2, 3}) mesh.indices.push_back(q[corner]);
-  }
-  if (inward) std::reverse(mesh.indices.begin(), mesh.indices.end());
-  scene.materials.emplace_back();
-  scene.meshes.push_back(mesh);
-  return scene;
-}
-
-TEST(FramingCamera, stands_inside_rooms_and_outside_objects) {
-  const Camera inside = framing_camera(box(true)), outside = framing_camera(box(false));
-  EXPECT_LT(std::max({std::abs(inside.eye.x), std::abs(inside.eye.y), std::abs(inside.eye.z)}), 1.0f);
-  EXPECT_GT(length(outside.eye), 1.8f);
-  EXPECT_LT(dot(outside.forward, outside.eye), 0);
-  EXPECT_NEAR(dot(outside.right, outside.up), 0, 1e-6f);
 }
 
 TEST(Describe, tells_what_is_there) {
