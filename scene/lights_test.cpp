@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
 
+#include "scene/box_scene.h"
 #include "scene/default_lights.h"
 #include "scene/describe.h"
 #include "scene/emissive_triangles.h"
@@ -108,6 +111,33 @@ TEST(DefaultLights, come_only_where_nothing_shines) {
   glowing["materials"][0]["emissiveFactor"] = {1, 1, 1};
   Result<Scene> lit = load(glowing);
   EXPECT_TRUE(add_default_lights(*lit).empty());
+}
+
+// A box of 6 m x 3 m x 4 m, area 108 m^2, and in it or on it a shining cube of 0.24 m^2.
+Scene box_with_indicator(bool room, float radiance) {
+  Scene scene;
+  add_box(scene, {-3, 0, -2}, {3, 3, 2}, room);
+  const float high = room ? 2.9f : 3.2f;
+  add_box(scene, {-0.1f, high - 0.2f, -0.1f}, {0.1f, high, 0.1f}, false);
+  scene.materials.emplace_back();
+  scene.materials[1].emission = {radiance, radiance, radiance};
+  scene.meshes[1].material = 1;
+  return scene;
+}
+
+TEST(DefaultLights, come_where_the_scenes_own_light_does_not_show_it) {
+  constexpr float kPi = 3.14159265f;
+  const auto radiance_for = [](float irradiance, float area) { return irradiance * area / (kPi * 0.24f); };
+  const float on_object = radiance_for(0.3f, 112), in_room = radiance_for(0.01f, 108);
+  for (const auto& [room, limit] : {std::pair(false, on_object), std::pair(true, in_room)}) {
+    Scene weak = box_with_indicator(room, 0.99f * limit), strong = box_with_indicator(room, 1.01f * limit);
+    EXPECT_NE(add_default_lights(weak).find("own light"), std::string::npos) << room;
+    EXPECT_EQ(weak.lights.size(), 1u);
+    EXPECT_TRUE(add_default_lights(strong).empty()) << room;
+  }
+  // One rule for both would spoil one of them.
+  Scene object = box_with_indicator(false, 2 * in_room);
+  EXPECT_FALSE(add_default_lights(object).empty());
 }
 
 TEST(Describe, tells_what_is_there) {

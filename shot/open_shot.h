@@ -21,8 +21,9 @@ struct OpenedShot {
 // The scene that a shot names: in metres, with its materials replaced; it may lack triangles, lights and cameras.
 Result<Scene> load_shot_scene(const Shot& shot, const SearchFolders& folders);
 
-// A shot without camera gets the scene's first one, or one that frames the scene; without any light (primary, punctual,
-// emissive, sky) the sun and sky of scene/default_lights.h. Both are notes. A scene without a triangle is refused.
+// A shot without camera gets the scene's first one, or one that frames the scene; without primary light, where the
+// scene's own light does not show it, the sun and sky of scene/default_lights.h. Both are notes. A scene without a
+// triangle is refused.
 Result<OpenedShot> open_shot(const Shot& shot, const SearchFolders& folders);
 
 // Removes the scene's lights that the shot repeats as primary (within 1e-4 of their values): the shot means them, and
