@@ -53,6 +53,10 @@ class ObjReader {
     while (const std::optional<std::string_view> line = lines_.next()) {
       Words words(*line);
       read_statement(words.next(), words);
+      if (!words.bad_number().empty()) {
+        library_.warn("numbers", "Numbers like \"" + printable(std::string(words.bad_number())) + "\", " + here() +
+                                     ", are read without their misspelt exponent.");
+      }
     }
     close_group();
     Scene scene;

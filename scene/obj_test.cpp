@@ -41,11 +41,23 @@ TEST(ObjReader, refuses_indices_beyond_the_lists_and_names_the_line) {
 }
 
 TEST(ObjReader, refuses_what_is_no_number_and_no_text) {
-  for (const char* vertex : {"v 1 2", "v 1 2 nan", "v inf 0 0", "v 1e99 0 0", "v 1 2 1.#IND"}) {
+  for (const char* vertex :
+       {"v 1 2", "v 1 2 nan", "v inf 0 0", "v 1e99 0 0", "v 1 2 1.#IND", "v 1 2 3.1+2", "v 1 2 3.1x"}) {
     EXPECT_FALSE(load_text(vertex)) << vertex;
   }
   EXPECT_TRUE(load_text("v +1 .5 -2.e-3\nv 1e-99 0 0\n"));
   EXPECT_FALSE(load_text(std::string("v\0 1", 4)));
+}
+
+TEST(ObjReader, leaves_out_a_misspelt_exponent_with_one_warning) {
+  const Result<Scene> scene = load_text("v 3.1+e2 2.e1 +3.1e2\nv 3.1-e2 0 1e-99\nv 1 0 0\nf 1 2 3\n");
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->meshes[0].positions[0].x, 3.1f);
+  EXPECT_EQ(scene->meshes[0].positions[0].y, 20.0f);
+  EXPECT_EQ(scene->meshes[0].positions[0].z, 310.0f);
+  EXPECT_EQ(scene->meshes[0].positions[1].x, 3.1f);
+  ASSERT_EQ(scene->warnings.size(), 1u);
+  EXPECT_NE(scene->warnings[0].find("\"3.1+e2\", line 1"), std::string::npos) << scene->warnings[0];
 }
 
 TEST(ObjReader, bounds_polygons_and_vertices) {

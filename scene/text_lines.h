@@ -28,22 +28,32 @@ class Words {
     const std::size_t last = rest_.find_last_not_of(kSpace);
     return rest_.substr(0, last == std::string_view::npos ? 0 : last + 1);
   }
-  // The next word as a finite number; nothing (and the word stays) if it is none.
+  // The next word as a finite number; nothing (and the word stays) if it is none. An exponent with its sign on the
+  // wrong side, "3.1+e2", is left out as other readers do, and noted: 3.1.
   std::optional<float> number() {
     const std::string_view before = rest_;
     std::string_view word = next();
     if (word.starts_with('+')) word.remove_prefix(1);
     float value = 0;
     const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (code == std::errc() && end == word.data() + word.size() && std::isfinite(value)) return value;
+    const std::string_view tail(end, static_cast<std::size_t>(word.data() + word.size() - end));
+    if (code == std::errc() && std::isfinite(value) && (tail.empty() || is_bad_exponent(tail))) {
+      if (!tail.empty() && bad_number_.empty()) bad_number_ = word;
+      return value;
+    }
     // Smaller than any float is nothing, not an error.
-    if (code == std::errc::result_out_of_range && end == word.data() + word.size() && is_tiny(word)) return 0.0f;
+    if (code == std::errc::result_out_of_range && tail.empty() && is_tiny(word)) return 0.0f;
     rest_ = before;
     return std::nullopt;
   }
+  // The first number of which an exponent was left out; empty: none.
+  std::string_view bad_number() const { return bad_number_; }
 
  private:
   static constexpr const char* kSpace = " \t\r\v\f";
+  static bool is_bad_exponent(std::string_view tail) {
+    return tail.starts_with("+e") || tail.starts_with("-e") || tail.starts_with("+E") || tail.starts_with("-E");
+  }
   static bool is_tiny(std::string_view word) {
     double value = 0;
     const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -52,7 +62,7 @@ class Words {
   }
   void skip_space() { rest_.remove_prefix(std::min(rest_.find_first_not_of(kSpace), rest_.size())); }
 
-  std::string_view rest_;
+  std::string_view rest_, bad_number_;
 };
 
 // The lines of a text, without comments; a backslash at the end of a line joins the next one.
