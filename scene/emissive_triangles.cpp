@@ -82,7 +82,7 @@ std::vector<EmissiveTriangle> emissive_triangles(const Scene& scene) {
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     const Mesh& mesh = scene.meshes[m];
     const Material& material = scene.materials[mesh.material];
-    if (!shines(material.emission)) continue;
+    if (material.unlit || !shines(material.emission)) continue;
     for (std::uint32_t t = 0; t < mesh.indices.size() / 3; ++t) {
       const std::uint32_t* corner = &mesh.indices[std::size_t(t) * 3];
       const Vec3 a = mesh.positions[corner[0]];

@@ -17,8 +17,8 @@ struct EmissiveTriangle {
   bool both_sides = false;
 };
 
-// In the order of meshes and triangles. Textures are averaged over 16 points, each at the level of detail of a
-// sixteenth of the triangle.
+// In the order of meshes and triangles, without those of unlit materials: they are seen and shine on nothing. Textures
+// are averaged over 16 points, each at the level of detail of a sixteenth of the triangle.
 std::vector<EmissiveTriangle> emissive_triangles(const Scene& scene);
 
 // Radiance that leaves a point of a triangle on its shining side, its texture at a level of detail; holes do not count

@@ -15,14 +15,14 @@ namespace {
 constexpr const char* kHonoured[] = {"KHR_texture_transform", "KHR_materials_emissive_strength",
                                      "KHR_lights_punctual",   "KHR_materials_specular",
                                      "KHR_materials_ior",     "EXT_mesh_gpu_instancing",
-                                     "KHR_mesh_quantization", "KHR_materials_pbrSpecularGlossiness"};
+                                     "KHR_mesh_quantization", "KHR_materials_pbrSpecularGlossiness",
+                                     "KHR_materials_unlit"};
 
 // What may be required and is left out all the same: the geometry is complete without it, only the look is plainer.
-constexpr const char* kLooksOnly[] = {"KHR_materials_unlit",        "KHR_materials_variants",
-                                      "KHR_materials_transmission", "KHR_materials_volume",
-                                      "KHR_materials_clearcoat",    "KHR_materials_sheen",
-                                      "KHR_materials_anisotropy",   "KHR_materials_iridescence",
-                                      "KHR_materials_dispersion",   "KHR_materials_diffuse_transmission"};
+constexpr const char* kLooksOnly[] = {
+    "KHR_materials_variants",    "KHR_materials_transmission", "KHR_materials_volume",
+    "KHR_materials_clearcoat",   "KHR_materials_sheen",        "KHR_materials_anisotropy",
+    "KHR_materials_iridescence", "KHR_materials_dispersion",   "KHR_materials_diffuse_transmission"};
 
 template <std::size_t N>
 bool contains(const char* const (&names)[N], const std::string& name) {

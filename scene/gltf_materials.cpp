@@ -95,6 +95,21 @@ void read_emission(const JsonObject& object, TextureReader& textures, Material& 
   material.emissive_texture = textures.slot(object, "emissiveTexture", true);
 }
 
+// KHR_materials_unlit: the base colour is the radiance, whatever light there is. It goes where emission goes; what
+// reflects becomes black, and its alpha stays where alpha is read.
+void make_unlit(Material& material) {
+  material.unlit = true;
+  material.emission = {material.base_colour.x, material.base_colour.y, material.base_colour.z};
+  material.emissive_texture = material.base_colour_texture;
+  material.base_colour = {0, 0, 0, material.base_colour.w};
+  material.metallic = 0;
+  material.roughness = 1;
+  material.metallic_roughness_texture = {};
+  material.normal_texture = {};
+  material.dielectric_f0 = {0, 0, 0};
+  material.dielectric_f90 = 0;
+}
+
 }  // namespace
 
 Material default_material() {
@@ -122,6 +137,7 @@ Material read_material(Document& document, TextureReader& textures, std::size_t 
   material.alpha_mode = alpha_mode(object);
   material.alpha_cutoff = object.number("alphaCutoff", 0.5f);
   material.double_sided = object.boolean("doubleSided", false);
+  if (object.extension("KHR_materials_unlit")) make_unlit(material);
   return material;
 }
 

@@ -96,6 +96,9 @@ class SceneReader {
     std::vector<Mesh> primitives = read_mesh(document_, index);
     for (Mesh& primitive : primitives) {
       primitive.material = material(primitive.material);
+      if (!primitive.colours.empty() && scene_.materials[primitive.material].unlit) {
+        document_.warn("unlit COLOR_0", "The vertex colours of unlit materials are ignored.");
+      }
       drop_unused_vertices(primitive);
       normalise_normals(primitive);
       const TextureSlot& normal_map = scene_.materials[primitive.material].normal_texture;

@@ -63,6 +63,7 @@ struct Material {
   float normal_scale = 1;
   Vec3 emission{0, 0, 0};  // factor times strength: radiance leaving the front side [W/(m^2 sr)]
   TextureSlot emissive_texture;
+  bool unlit = false;  // KHR_materials_unlit: `emission` is what is seen, nothing is reflected, and nothing else is lit
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "equations/cpp/float.h"
+#include "scene/emissive_triangles.h"
 #include "scene/gltf_test_files.h"
 #include "scene/srgb.h"
 #include "scene/surface.h"
@@ -267,6 +268,25 @@ TEST(TexturePicture, light_leaves_single_sided_surfaces_on_the_front_only) {
   EXPECT_EQ(emission({0, 0, 1}).x, 0);
   file["materials"][0]["doubleSided"] = true;
   EXPECT_EQ(emission({0, 0, 1}).x, 4);
+}
+
+TEST(TexturePicture, unlit_materials_show_their_base_colour_and_neither_reflect_nor_shine) {
+  Json file = textured_square(1, 1, {255, 0, 255, 255});
+  file["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 1, 0.25, 1};
+  const auto at_middle = [](const Scene& scene) { return evaluate_surface(scene, hit_at(0.5f, 0.4f), kForward, 0); };
+  EXPECT_EQ(at_middle(loaded(file)).emission.x, 0);
+  file["materials"][0]["extensions"]["KHR_materials_unlit"] = Json::object();
+  file["extensionsUsed"] = {"KHR_materials_unlit"};
+  const Scene scene = loaded(file);
+  const SurfacePoint point = at_middle(scene);
+  EXPECT_EQ(point.emission.x, 0.5f);
+  EXPECT_EQ(point.emission.y, 0);
+  EXPECT_EQ(point.emission.z, 0.25f);
+  for (const Vec3 reflected : {point.diffuse_albedo, point.f0, Vec3(point.f90, 0, 0)}) {
+    EXPECT_EQ(reflected.x + reflected.y + reflected.z, 0);
+  }
+  EXPECT_TRUE(emissive_triangles(scene).empty());
+  EXPECT_TRUE(scene.warnings.empty());
 }
 
 TEST(TexturePicture, overrides_of_a_shot_replace_texture_and_factor) {

@@ -34,7 +34,8 @@ class EmissiveTriangles {
   explicit EmissiveTriangles(const Scene& scene) : scene_(scene) {
     for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) {
       const Mesh& mesh = scene.meshes[i];
-      if (!has_light(scene.materials[mesh.material].emission)) continue;
+      const Material& material = scene.materials[mesh.material];
+      if (material.unlit || !has_light(material.emission)) continue;
       meshes_.push_back(i);
       first_.push_back(first_.back() + mesh.indices.size() / 3);
     }

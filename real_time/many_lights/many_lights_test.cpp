@@ -79,6 +79,12 @@ TEST(ManyLights, emissive_triangles_shine_as_lambert_emitters_from_their_front) 
   }
 }
 
+TEST(ManyLights, unlit_triangles_shine_on_nothing) {
+  Scene scene = panel(false);
+  scene.materials[0].unlit = true;
+  EXPECT_EQ(make_many_lights(scene, {}, Settings{}, 0).size(), 0u);
+}
+
 TEST(ManyLights, points_are_uniform_over_the_triangle_and_move_with_seed_and_frame) {
   const Scene scene = panel(false);
   double sum_x = 0, sum_x_sq = 0;
