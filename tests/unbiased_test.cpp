@@ -9,6 +9,7 @@
 #include "real_time/frame.h"
 #include "real_time/geometry_buffer/geometry_buffer_pass.h"
 #include "real_time/light_range/light_range.h"
+#include "real_time/settings_text.h"
 #include "real_time/shading/shading_pass.h"
 #include "real_time/virtual_point_lights/place_lights.h"
 #include "scene/recipes/recipes.h"
@@ -150,7 +151,9 @@ TEST(Unbiased, holds_in_sponza) {
   const Stage sponza{std::make_shared<const Scene>(std::move(opened->scene)), opened->camera, opened->primary};
   for (const std::uint32_t interleave : {1u, 8u}) {
     Settings settings = test_settings(interleave);
-    settings.exposure = 3.77f;
+    const Result<Settings> listed = settings_from(shot->settings, {});
+    ASSERT_TRUE(listed.has_value()) << listed.error().message;
+    settings.exposure = listed->exposure;
     const ZTestReport report = test_frames(sponza, settings, settings);
     EXPECT_TRUE(report.passed) << "interleave " << interleave << ": " << report.reason;
   }
