@@ -88,10 +88,11 @@ struct Renderer::State {
   State(RayScene scene, const Camera& camera_, PrimaryLights primaries_, const Settings& settings_)
       : rays(std::move(scene)), camera(camera_), primaries(std::move(primaries_)), settings(settings_) {}
 
-  const View& view(std::uint64_t frame_index);
+  const View* view(std::uint64_t frame_index);  // none after Ctrl-C
+  bool render_view(std::uint64_t frame_index, View& made);
   float constant_xi(const View& seen, const ManyLights& many_lights, const FrameKey& key);
-  ShadingOutputs shade_lights(std::uint64_t frame_index, const std::vector<std::string>& layers, Frame& frame,
-                              Prediction& prediction);
+  ShadingOutputs shade_lights(const View& seen, std::uint64_t frame_index, const std::vector<std::string>& layers,
+                              Frame& frame, Prediction& prediction);
 
   RayScene rays;
   Camera camera;
@@ -99,33 +100,44 @@ struct Renderer::State {
   Settings settings;
   double bvh_build_ms = 0;
   std::optional<View> cached;
-  std::optional<float> clamped;  // xi of Ranges::clamped for this view
+  std::optional<ReflectiveShadowMaps> maps;  // kept, as the order of their texels takes a while to find
+  std::optional<float> clamped;              // xi of Ranges::clamped for this view
   BilateralFilterPass filter_indirect, filter_many;
 };
 
-const View& Renderer::State::view(std::uint64_t frame_index) {
-  if (cached && !settings.jitter) return *cached;
-  cached.emplace();
+const View* Renderer::State::view(std::uint64_t frame_index) {
+  if (!cached || settings.jitter) {
+    cached.emplace();
+    if (!render_view(frame_index, *cached)) cached.reset();
+  }
+  return cached ? &*cached : nullptr;
+}
+
+// False where it was asked to stop: no pass takes a second, all of them may.
+bool Renderer::State::render_view(std::uint64_t frame_index, View& made) {
   FrameStatistics times;
   PassTimer timer(times);
   const Vec2 sub_pixel = settings.jitter ? jittered_sub_pixel(settings.vpl_seed, frame_index) : Vec2(0.5f, 0.5f);
-  render_geometry_buffer({rays, camera, settings.width, settings.height, sub_pixel, settings.isa}, cached->geometry);
+  render_geometry_buffer({rays, camera, settings.width, settings.height, sub_pixel, settings.isa}, made.geometry);
   timer.end("geometry_buffer");
+  if (stop_requested()) return false;
   PrimaryLights lights = primaries;
   const PrimaryLights sky = sample_sky(rays.scene().environment,
                                        {.seed = settings.vpl_seed, .frame = frame_index, .jitter = settings.jitter});
   lights.insert(lights.end(), sky.begin(), sky.end());
   timer.end("sky_light");
+  const bool lights_move = settings.jitter && !sky.empty();
+  if (!maps || lights_move) maps.emplace(lights, rays.bounds(), settings.vpls);
   std::vector<SurfaceTexel> texels;
-  ReflectiveShadowMaps(lights, rays.bounds(), settings.vpls)
-      .render(rays, {settings.vpl_seed, settings.jitter, frame_index}, texels);
+  maps->render(rays, {settings.vpl_seed, settings.jitter, frame_index}, texels);
   timer.end("reflective_shadow_map");
-  place_virtual_point_lights(texels, cached->vpls);
+  if (stop_requested()) return false;
+  place_virtual_point_lights(texels, made.vpls);
   timer.end("virtual_point_lights");
-  cached->direct = direct_light(rays, cached->geometry, lights, settings.isa);
+  made.direct = direct_light(rays, made.geometry, lights, settings.isa);
   timer.end("direct_light");
-  cached->passes_ms = times.passes_ms;
-  return *cached;
+  made.passes_ms = times.passes_ms;
+  return !stop_requested();
 }
 
 // Lights of one frame that have their ranges.
@@ -158,9 +170,9 @@ float Renderer::State::constant_xi(const View& seen, const ManyLights& many_ligh
   }
 }
 
-ShadingOutputs Renderer::State::shade_lights(std::uint64_t frame_index, const std::vector<std::string>& layers,
-                                             Frame& frame, Prediction& prediction) {
-  const View& seen = view(frame_index);
+ShadingOutputs Renderer::State::shade_lights(const View& seen, std::uint64_t frame_index,
+                                             const std::vector<std::string>& layers, Frame& frame,
+                                             Prediction& prediction) {
   frame.statistics.passes_ms = seen.passes_ms;
   PassTimer timer(frame.statistics);
   const ManyLights many_lights = make_many_lights(rays.scene(), primaries, settings, frame_index);
@@ -209,9 +221,13 @@ Result<Renderer> Renderer::create(std::shared_ptr<const Scene> scene, const Came
 Result<Frame> Renderer::render(std::uint64_t frame_index, const std::vector<std::string>& layers) {
   Frame frame;
   frame.width = state_->settings.width, frame.height = state_->settings.height;
+  const Error stopped{ErrorKind::failed, "the frame was interrupted"};
+  const View* view = state_->view(frame_index);
+  if (view == nullptr) return stopped;
+  const View& seen = *view;
   Prediction prediction;
-  const ShadingOutputs shaded = state_->shade_lights(frame_index, layers, frame, prediction);
-  const View& seen = *state_->cached;
+  const ShadingOutputs shaded = state_->shade_lights(seen, frame_index, layers, frame, prediction);
+  if (stop_requested()) return stopped;
   PassTimer timer(frame.statistics);
   const bool filtered = state_->settings.filter == Filter::bilateral;
   const Radiance& noisy = shaded.radiance.indirect;
@@ -224,7 +240,7 @@ Result<Frame> Renderer::render(std::uint64_t frame_index, const std::vector<std:
   compose({seen.geometry, seen.direct, indirect, many, shaded.radiance, shaded, prediction}, layers, frame);
   timer.end("composition");
   for (const auto& [pass, ms] : frame.statistics.passes_ms) frame.statistics.frame_ms += ms;
-  if (stop_requested()) return Error{ErrorKind::failed, "the frame was interrupted"};
+  if (stop_requested()) return stopped;
   return frame;
 }
 

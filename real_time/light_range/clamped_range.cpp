@@ -102,7 +102,7 @@ class Sample {
   double over_groups(const Count& count) const {
     std::vector<double> counts(groups_.size());
     parallel_for(groups_.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t g = begin; g < end; ++g) counts[g] = count(groups_[g]);
+      for (std::size_t g = begin; g < end && !stop_requested(); ++g) counts[g] = count(groups_[g]);
     });
     return std::accumulate(counts.begin(), counts.end(), 0.0);
   }
