@@ -13,6 +13,7 @@
 #include "real_time/light_range/clamped_range.h"
 #include "real_time/light_range/light_range.h"
 #include "real_time/many_lights/many_lights.h"
+#include "real_time/not_finite.h"
 #include "real_time/shading/prediction.h"
 #include "real_time/shading/shading_pass.h"
 #include "real_time/sky_light/sky_light.h"
@@ -237,7 +238,10 @@ Result<Frame> Renderer::render(std::uint64_t frame_index, const std::vector<std:
   const Radiance& indirect = filtered ? state_->filter_indirect.run(common) : noisy;
   const Radiance& many = filtered ? state_->filter_many.run(for_many) : shaded.radiance.from_many;
   timer.end("filtering");
+  std::uint64_t& bad = frame.statistics.pixels_not_finite;
+  bad = std::max(count_not_finite(noisy), count_not_finite(shaded.radiance.from_many));
   compose({seen.geometry, seen.direct, indirect, many, shaded.radiance, shaded, prediction}, layers, frame);
+  bad = std::max(bad, blacken_not_finite(frame.picture));
   timer.end("composition");
   for (const auto& [pass, ms] : frame.statistics.passes_ms) frame.statistics.frame_ms += ms;
   if (stop_requested()) return stopped;

@@ -30,6 +30,10 @@ struct FrameStatistics {
   PerPixel evaluated;  // of those, left to the shading kernel by the test of each group of 16 pixels
   double list_length_mean = 0, list_length_p99 = 0, list_length_max = 0;  // per list: (sub-region tile, depth half)
 
+  // Pixels whose light came out as no number or infinite, and was made good: by their neighbours' in the filter, else
+  // black. Rare, or a mistake of ours.
+  std::uint64_t pixels_not_finite = 0;
+
   double evaluations_per_second = 0;  // listed light x pixel pairs per second of culling and shading
 };
 

@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <tuple>
 
 #include "base/parallel.h"
+#include "real_time/not_finite.h"
 #include "scene/recipes/recipes.h"
 
 namespace luciole {
@@ -120,6 +123,40 @@ TEST(Frame, of_odd_sizes_and_few_lights_renders) {
     const std::vector<Vec3> pixels = picture(scene, settings);
     ASSERT_EQ(pixels.size(), std::size_t(width) * height);
     for (const Vec3& pixel : pixels) EXPECT_TRUE(std::isfinite(pixel.x + pixel.y + pixel.z));
+  }
+}
+
+TEST(NotFinite, light_is_counted_by_pixels_and_taken_out_of_pictures) {
+  const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  Radiance light;
+  EXPECT_EQ(count_not_finite(light), 0u);
+  light.resize(200000);
+  for (Plane3* planes : {&light.diffuse, &light.specular}) {
+    for (Plane& plane : *planes) std::fill(plane.begin(), plane.end(), kLargest);
+  }
+  EXPECT_EQ(count_not_finite(light), 0u);
+  light.diffuse[1][70000] = light.specular[0][70000] = nan;
+  light.specular[1][199999] = -infinity;
+  EXPECT_EQ(count_not_finite(light), 2u);
+  std::vector<Vec3> picture = {Vec3(1, 2, 3), Vec3(nan, 1, 1), Vec3(1, 1, infinity), Vec3(kLargest, kLargest, 1)};
+  EXPECT_EQ(blacken_not_finite(picture), 2u);
+  EXPECT_EQ(blacken_not_finite(picture), 0u);
+  EXPECT_EQ(picture[0].y, 2);
+  EXPECT_EQ(picture[2].x, 0);
+}
+
+TEST(NotFinite, light_does_not_come_up_in_bundled_scenes) {
+  for (const char* address : {"recipe:cornell?glossy=0.1", "recipe:ring?alpha=0.05", "recipe:lamps?count=1000"}) {
+    const Stage scene = stage(address);
+    for (const Filter filter : {Filter::none, Filter::bilateral}) {
+      Settings settings = small_settings();
+      settings.filter = filter;
+      Result<Renderer> renderer = Renderer::create(scene.scene, scene.camera, scene.primaries, settings);
+      for (std::uint64_t frame = 0; frame < 4; ++frame) {
+        EXPECT_EQ(renderer->render(frame)->statistics.pixels_not_finite, 0u) << address;
+      }
+    }
   }
 }
 

@@ -36,6 +36,7 @@ Json frame_figures(const FrameStatistics& frame) {
   figures["lights_evaluated_per_pixel"] = per_pixel(frame.evaluated);
   figures["list_length"] = {
       {"mean", frame.list_length_mean}, {"p99", frame.list_length_p99}, {"max", frame.list_length_max}};
+  figures["pixels_not_finite"] = frame.pixels_not_finite;
   figures["light_pixel_evaluations_per_second"] = frame.evaluations_per_second;
   return figures;
 }
