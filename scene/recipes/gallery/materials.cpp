@@ -61,13 +61,23 @@ float marble_height(Vec2 place) {
   return tilt + 0.0025f * smooth_step(0.5f * kGrout, 2.2f * kGrout, cell.edge_metres);
 }
 
+// Lime plaster, scored while it was wet to look like ashlar of 1 m by 0.5 m, for a bare wall of this size has no scale.
+// Blocks differ a little in tone; stains end at no joint.
+constexpr float kScore = 0.007f;  // half width of the scored joints [m]
+Cell ashlar_cell(Vec2 place) { return cell_of(place, {2, 4}, kPlasterTile, 0.5f); }
+
 Vec3 plaster(Vec2 place) {
   const float stain = tiling_fractal(place, 2, 5, 41), grain = tiling_noise(place, 160, 43);
-  return blend({0.68f, 0.64f, 0.57f}, {0.80f, 0.77f, 0.71f}, 0.5f + 1.2f * stain) * (1 + 0.02f * grain);
+  const Cell cell = ashlar_cell(place);
+  const float tone = 0.94f + 0.12f * unit_hash(19, cell.row * 64 + cell.column, 0);
+  const float joint = 1 - smooth_step(0.6f * kScore, 1.4f * kScore, cell.edge_metres);
+  return blend({0.68f, 0.64f, 0.57f}, {0.80f, 0.77f, 0.71f}, 0.5f + 1.2f * stain) * (1 + 0.02f * grain) * tone *
+         (1 - 0.35f * joint);
 }
 
 float plaster_height(Vec2 place) {
-  return 0.006f * tiling_fractal(place, 4, 3, 47) + 0.0016f * tiling_fractal(place, 48, 3, 53);
+  return 0.006f * tiling_fractal(place, 4, 3, 47) + 0.0016f * tiling_fractal(place, 48, 3, 53) +
+         0.008f * smooth_step(0.4f * kScore, 1.8f * kScore, ashlar_cell(place).edge_metres);
 }
 
 Vec3 limestone(Vec2 place) {
