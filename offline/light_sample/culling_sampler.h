@@ -47,7 +47,7 @@ class CullingSampler : public LightSampler {
 };
 
 // Keeps k of them.   [TH16] Algorithm 3
-class ListSampler final : public CullingSampler {
+class ListSampler : public CullingSampler {
  public:
   using CullingSampler::CullingSampler;
   ChosenLight choose(const Receiver& receiver, Candidates& candidates, double u, ChoiceMemory& memory) const override;
