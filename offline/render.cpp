@@ -49,6 +49,7 @@ Result<PathTracer> PathTracer::create(std::shared_ptr<const Scene> scene, const 
   const Result<Isa> isa = choose_isa(settings.isa);
   if (!isa) return isa.error();
   RayTracingOptions options;
+  options.blend_at_random = true;
   if (settings.isa != Isa::automatic) options.isa = to_string(*isa);
   const auto start = std::chrono::steady_clock::now();
   Result<RayScene> rays = RayScene::create(std::move(scene), options);

@@ -124,6 +124,42 @@ TEST(PathTracer, finds_a_sun) {
   EXPECT_NEAR(mean_red(render(std::make_shared<const Scene>(scene), camera, small(2), 8)), 0.8, 1e-4);
 }
 
+// Two blended panes of alpha 1/4 and 1/2 before a sky of radiance 1, black themselves: 3/4 of 1/2 passes; and of a
+// lamp's light as much.
+TEST(PathTracer, looks_and_shines_through_blended_surfaces) {
+  Scene scene;
+  for (const float alpha : {0.25f, 0.5f}) {
+    Material pane;
+    pane.base_colour = {0, 0, 0, alpha}, pane.alpha_mode = AlphaMode::blend, pane.double_sided = true;
+    pane.metallic = 0, pane.dielectric_f0 = {0, 0, 0}, pane.dielectric_f90 = 0;
+    Mesh mesh;
+    mesh.material = static_cast<std::uint32_t>(scene.materials.size());
+    const float depth = -1 - alpha;
+    mesh.positions = {{-9, -9, depth}, {9, -9, depth}, {9, 9, depth}, {-9, 9, depth}};
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    scene.materials.push_back(pane);
+    scene.meshes.push_back(mesh);
+  }
+  const Camera camera = look_at({0, 0, 0}, {0, 0, -1}, 0.5f);
+  Scene sky = scene;
+  sky.environment.radiance = {1, 1, 1};
+  EXPECT_NEAR(mean_red(render(std::make_shared<const Scene>(sky), camera, small(1), 64)), 0.375, 0.01);
+  Material wall;
+  wall.base_colour = {1, 1, 1, 1}, wall.metallic = 0, wall.dielectric_f0 = {0, 0, 0}, wall.dielectric_f90 = 0;
+  wall.double_sided = true;
+  Mesh mesh;
+  mesh.material = 2;
+  mesh.positions = {{-9, -9, 1}, {9, -9, 1}, {9, 9, 1}, {-9, 9, 1}};
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  scene.materials.push_back(wall);
+  scene.meshes.push_back(mesh);
+  PunctualLight lamp;
+  lamp.position = {0, 0, -100}, lamp.intensity = {10201 * 3.14159265f, 10201 * 3.14159265f, 10201 * 3.14159265f};
+  scene.lights.push_back(lamp);
+  const Camera back = look_at({0, 0, 0.5f}, {0, 0, 1}, 0.1f);
+  EXPECT_NEAR(mean_red(render(std::make_shared<const Scene>(scene), back, small(1), 64)), 0.375, 0.01);
+}
+
 // What all pixels together see of a triangle on the film: their filters integrated over it. Of box and tent that is its
 // area; the sum of gaussians around the pixels has ripples.
 double seen_by_all(PixelFilter filter, Vec2 a, Vec2 b, Vec2 c) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets rays pass through the holes of alpha-masked meshes.
+// Lets rays pass through the holes of alpha-masked meshes, and through blended ones.
 #pragma once
 #include <cstdint>
 
@@ -11,6 +11,7 @@ namespace luciole {
 struct AlphaFilter {
   const Scene* scene;
   std::uint32_t mesh;
+  bool blend_at_random = false;
 
   // Has the geometry ask this filter about every candidate hit. The filter must outlive the geometry.
   void attach(RTCGeometry geometry);

@@ -19,12 +19,14 @@ struct alignas(64) RayPacket {
   float direction_x[kPacketRays], direction_y[kPacketRays], direction_z[kPacketRays];  // any length but 0
   float nearest[kPacketRays], farthest[kPacketRays];  // hits count between these, in units of the direction's length
   std::int32_t active[kPacketRays];                   // -1: trace this lane, 0: leave it
+  std::uint32_t random[kPacketRays];                  // 32 bits that decide what blended surfaces let through
 
-  void set(int lane, Vec3 origin, Vec3 direction, float nearest_distance, float farthest_distance) {
+  void set(int lane, Vec3 origin, Vec3 direction, float nearest_distance, float farthest_distance,
+           std::uint32_t random_bits = 0) {
     origin_x[lane] = origin.x, origin_y[lane] = origin.y, origin_z[lane] = origin.z;
     direction_x[lane] = direction.x, direction_y[lane] = direction.y, direction_z[lane] = direction.z;
     nearest[lane] = nearest_distance, farthest[lane] = farthest_distance;
-    active[lane] = -1;
+    active[lane] = -1, random[lane] = random_bits;
   }
   // A lane that is not traced, with values that do no harm.
   void skip(int lane) {

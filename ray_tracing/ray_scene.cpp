@@ -106,7 +106,7 @@ void copy_rays(const RayPacket& from, RTCRay16& to) {
   std::memcpy(to.tfar, from.farthest, kBytes);
   std::fill_n(to.time, kPacketRays, 0.0f);
   std::fill_n(to.mask, kPacketRays, 1u);
-  std::fill_n(to.id, kPacketRays, 0u);
+  std::memcpy(to.id, from.random, sizeof(to.id));
   std::fill_n(to.flags, kPacketRays, 0u);
 }
 
@@ -139,7 +139,7 @@ Status RayScene::Embree::add_mesh(const Scene& from, std::uint32_t mesh_index) {
     std::memcpy(indices, mesh.indices.data(), mesh.indices.size() / 3 * 3 * sizeof(std::uint32_t));
     rtcSetGeometryMask(geometry, 1);
     // Only where there can be a hole: a filter costs a call per candidate hit.
-    if (can_have_holes(from, mesh)) filters[mesh_index].attach(geometry);
+    if (can_have_holes(from, mesh, filters[mesh_index].blend_at_random)) filters[mesh_index].attach(geometry);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, mesh_index);
   }
@@ -160,7 +160,7 @@ Result<RayScene> RayScene::create(std::shared_ptr<const Scene> scene, const RayT
   Embree& embree = *made.embree_;
   if (Status opened = embree.open(options); !opened) return opened.error();
   const auto meshes = static_cast<std::uint32_t>(made.scene_->meshes.size());
-  for (std::uint32_t i = 0; i < meshes; ++i) embree.filters.push_back({made.scene_.get(), i});
+  for (std::uint32_t i = 0; i < meshes; ++i) embree.filters.push_back({made.scene_.get(), i, options.blend_at_random});
   for (std::uint32_t i = 0; i < meshes; ++i) {
     if (made.scene_->meshes[i].indices.size() < 3) continue;
     if (Status added = embree.add_mesh(*made.scene_, i); !added) return added.error();

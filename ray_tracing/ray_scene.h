@@ -12,8 +12,11 @@
 namespace luciole {
 
 struct RayTracingOptions {
-  std::string isa;                       // "avx512", "avx2", "baseline"; empty: the best of this processor
-  bool robust = false;                   // watertight at edges, about 10 % slower: for references
+  std::string isa;      // "avx512", "avx2", "baseline"; empty: the best of this processor
+  bool robust = false;  // watertight at edges, about 10 % slower: for references
+  // Blended materials: cut where their alpha is below one half; or a ray passes with probability 1 - alpha, decided by
+  // its random bits and the triangle.
+  bool blend_at_random = false;
   std::uint64_t memory_limit_bytes = 0;  // Embree may not hold more than this; 0: no limit
 };
 

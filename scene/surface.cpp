@@ -171,10 +171,15 @@ bool alpha_passes(const Scene& scene, const SurfaceHit& hit) {
   return surface_alpha(scene, hit) >= (material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : 0.5f);
 }
 
-bool can_have_holes(const Scene& scene, const Mesh& mesh) {
+bool is_blended(const Scene& scene, std::uint32_t mesh) {
+  return scene.materials[scene.meshes[mesh].material].alpha_mode == AlphaMode::blend;
+}
+
+bool can_have_holes(const Scene& scene, const Mesh& mesh, bool blend_at_random) {
   const Material& material = scene.materials[mesh.material];
   if (material.alpha_mode == AlphaMode::opaque) return false;
-  const float cutoff = material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : 0.5f;
+  const bool blends = blend_at_random && material.alpha_mode == AlphaMode::blend;
+  const float cutoff = blends ? 1.0f : material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : 0.5f;
   if (material.base_colour.w < cutoff) return true;
   const std::int32_t texture = material.base_colour_texture.texture;
   if (texture >= 0 && scene.textures[static_cast<std::size_t>(texture)].image->has_alpha) return true;

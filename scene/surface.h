@@ -42,7 +42,10 @@ float surface_alpha(const Scene& scene, const SurfaceHit& hit);
 // (a renderer that lets rays through at random asks surface_alpha instead).
 bool alpha_passes(const Scene& scene, const SurfaceHit& hit);
 
-// Whether alpha_passes can be false anywhere on a mesh: only those need a ray filter.
-bool can_have_holes(const Scene& scene, const Mesh& mesh);
+// Whether rays can pass anywhere on a mesh: only those need a ray filter.
+//   blend_at_random  they pass blended surfaces wherever alpha is below 1, not below one half
+bool can_have_holes(const Scene& scene, const Mesh& mesh, bool blend_at_random = false);
+
+bool is_blended(const Scene& scene, std::uint32_t mesh);
 
 }  // namespace luciole

@@ -334,7 +334,9 @@ TEST(LightSampler, a_forgotten_probability_is_caught) { expect_caught<WithoutPro
 TEST(LightSampler, counting_what_is_out_of_range_twice_is_caught) { expect_caught<RealisedRangesOnly>(); }
 TEST(LightSampler, dropping_what_is_out_of_range_is_caught) { expect_caught<IgnoringUnreached>(); }
 TEST(LightSampler, appending_to_a_full_list_is_caught) { expect_caught<AppendedToFullList>(); }
-TEST(LightSampler, completion_with_stratified_ranges_is_caught) { expect_caught<StratifiedCompletion>(0.3f, 3 * kSamples); }
+TEST(LightSampler, completion_with_stratified_ranges_is_caught) {
+  expect_caught<StratifiedCompletion>(0.3f, 3 * kSamples);
+}
 
 // The choice's own bookkeeping: lights come as often as pmf says.
 TEST(LightSampler, light_is_chosen_as_often_as_the_tree_of_cones_says) {

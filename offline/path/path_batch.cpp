@@ -92,8 +92,8 @@ void PathBatch::trace_all(std::uint32_t scattering) {
         packet.skip(lane);
         continue;
       }
-      const Path& path = paths_[active_[first + static_cast<std::size_t>(lane)]];
-      packet.set(lane, path.origin, path.direction, 0, kFar);
+      Path& path = paths_[active_[first + static_cast<std::size_t>(lane)]];
+      packet.set(lane, path.origin, path.direction, 0, kFar, path.numbers.bits());
     }
     statistics_.rays += static_cast<std::uint64_t>(count);
     const HitPacket hits = context_.rays.intersect(packet, coherence);
@@ -241,7 +241,8 @@ void PathBatch::ask_finite_light(const Arrival& arrival, const Bsdf& bsdf) {
   const float density = chosen.pmf * acceptance * light.pdf;
   const Vec3 end = record.lamp > 0 ? light.position : context_.rays.offset_from_surface(light.position, light.normal);
   shadow_rays_.push_back({context_.rays.offset_from_surface(point.position, point.geometric_normal), end,
-                          path.throughput * reflected * light.radiance * (weight / density), arrival.path});
+                          path.throughput * reflected * light.radiance * (weight / density), arrival.path,
+                          path.numbers.bits()});
 }
 
 void PathBatch::ask_infinite_light(const Arrival& arrival, const Bsdf& bsdf) {
@@ -256,7 +257,8 @@ void PathBatch::ask_infinite_light(const Arrival& arrival, const Bsdf& bsdf) {
   const Vec3 origin = context_.rays.offset_from_surface(point.position, point.geometric_normal);
   const float beyond = 2 * context_.rays.bounds().diagonal() + length(origin - context_.rays.bounds().centre());
   shadow_rays_.push_back({origin, origin + light.direction * beyond,
-                          path.throughput * reflected * light.radiance * (weight / light.pdf), arrival.path});
+                          path.throughput * reflected * light.radiance * (weight / light.pdf), arrival.path,
+                          path.numbers.bits()});
 }
 
 void PathBatch::trace_shadow_rays() {
@@ -269,7 +271,7 @@ void PathBatch::trace_shadow_rays() {
         continue;
       }
       const ShadowRay& ray = shadow_rays_[first + static_cast<std::size_t>(lane)];
-      packet.set(lane, ray.origin, ray.towards - ray.origin, 0, 1);
+      packet.set(lane, ray.origin, ray.towards - ray.origin, 0, 1, ray.random);
     }
     const std::uint32_t blocked = context_.rays.occluded(packet, Coherence::incoherent);
     for (int lane = 0; lane < count; ++lane) {

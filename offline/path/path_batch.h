@@ -34,7 +34,7 @@ struct PathContext {
 struct ShadowRay {
   Vec3 origin, towards;  // [m]; blocked if something lies between them
   Vec3 light;            // throughput included
-  std::uint32_t path;
+  std::uint32_t path, random;
 };
 
 class PathBatch {

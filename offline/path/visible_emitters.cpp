@@ -80,7 +80,7 @@ void VisibleEmitters::project(std::uint32_t light, std::uint64_t pass, std::vect
     const float cosine = directional_factor(record, -dot(record.axis(), direction));
     if (!(cosine > 0)) continue;
     projections.push_back({place.lens, rays_.offset_from_surface(point.position, point.normal), point.radiance,
-                           place.pixels, camera_.film_per_area(direction, distance_sq, cosine), light});
+                           place.pixels, camera_.film_per_area(direction, distance_sq, cosine), light, numbers.bits()});
   }
 }
 
@@ -110,7 +110,7 @@ void VisibleEmitters::splat_visible(const std::vector<Projection>& projections, 
     for (int lane = 0; lane < kPacketRays; ++lane) {
       const std::size_t i = first + static_cast<std::size_t>(lane);
       if (i < projections.size()) {
-        packet.set(lane, projections[i].lens, projections[i].end - projections[i].lens, 0, 1);
+        packet.set(lane, projections[i].lens, projections[i].end - projections[i].lens, 0, 1, projections[i].random);
       } else {
         packet.skip(lane);
       }

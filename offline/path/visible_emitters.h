@@ -39,7 +39,7 @@ class VisibleEmitters {
     Vec3 radiance;
     Vec2 pixels;
     float film_per_area;  // [pixels^2/m^2]
-    std::uint32_t light;
+    std::uint32_t light, random;
   };
 
   float expected_points(const LightRecord& light) const;
