@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Remakes docs/results: benchmarks/run.sh [culling|speed|kernel|scaling|steadiness|filter|memory ...], all without
-# arguments. Builds into $BUILD (default: build). Shots of files take part where $LUCIOLE_SCENES names their folder.
+# Remakes docs/results: benchmarks/run.sh [culling|speed|kernel|scaling|steadiness|filter|memory|light_choice|equal_time
+# ...], all without arguments (equal_time alone takes an hour and a half; LUCIOLE_EQUAL_TIME, LUCIOLE_REFERENCE_TIME in
+# seconds and LUCIOLE_EQUAL_SIZE shorten it). Builds into $BUILD (default: build). Shots of files take part where $LUCIOLE_SCENES names their folder.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${BUILD:-build} results=docs/results
@@ -149,12 +150,20 @@ filter() {
   done
 }
 
+# Seconds per choice and per reference, and the picture's size; the scenes are the largest part of the time.
+equal_time() {
+  local scenes=('recipe:lamps?count=5000' 'recipe:lamps?count=60000' 'recipe:lamps?count=1000000' 'recipe:ring')
+  has_scenes && scenes+=(lost-empire sports-car)
+  "$programs/equal_time_benchmark" "${LUCIOLE_EQUAL_TIME:-30}" "${LUCIOLE_REFERENCE_TIME:-300}" \
+    "${LUCIOLE_EQUAL_SIZE:-1280x720}" "${scenes[@]}"
+}
+
 pages=("$@")
-((${#pages[@]})) || pages=(speed memory kernel filter scaling steadiness culling)
+((${#pages[@]})) || pages=(speed memory kernel filter scaling steadiness culling light_choice equal_time)
 for name in "${pages[@]}"; do
   case $name in
-    speed | memory | kernel | filter) page "$name" "$name" ;;
-    scaling | steadiness | culling) page "$name" "$programs/${name}_benchmark" ;;
+    speed | memory | kernel | filter | equal_time) page "$name" "$name" ;;
+    scaling | steadiness | culling | light_choice) page "$name" "$programs/${name}_benchmark" ;;
     *)
       echo "run.sh: no page '$name'" >&2
       exit 2
