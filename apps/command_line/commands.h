@@ -16,6 +16,7 @@ using Command = std::function<Result<int>()>;
 void add_render_command(CLI::App& program, Command& chosen);
 void add_info_command(CLI::App& program, Command& chosen);
 void add_make_command(CLI::App& program, Command& chosen);
+void add_merge_command(CLI::App& program, Command& chosen);
 void add_compare_command(CLI::App& program, Command& chosen);
 
 }  // namespace luciole

@@ -39,6 +39,7 @@ int run(int argument_count, char** arguments) {
   add_render_command(program, chosen);
   add_info_command(program, chosen);
   add_make_command(program, chosen);
+  add_merge_command(program, chosen);
   add_compare_command(program, chosen);
   try {
     program.parse(argument_count, arguments);
@@ -48,7 +49,8 @@ int run(int argument_count, char** arguments) {
     return explain({ErrorKind::usage, std::string(misuse.what()) + " (see luciole --help)"});
   }
   if (!chosen) {
-    return explain({ErrorKind::usage, "a command is needed: render, info, make or compare (see luciole --help)"});
+    return explain(
+        {ErrorKind::usage, "a command is needed: render, info, make, merge or compare (see luciole --help)"});
   }
   const Result<int> outcome = chosen();
   if (!outcome) return explain(outcome.error());

@@ -77,12 +77,14 @@ bool OutputFiles::any_exr() const {
   return std::any_of(names_.begin(), names_.end(), [](const fs::path& name) { return name.extension() == ".exr"; });
 }
 
+Status write_picture(const Image& image, const fs::path& path, float exposure, ToneCurve curve) {
+  if (path.extension() == ".exr") return write_exr(image, path);
+  return write_png(to_display(image.colours(""), exposure, curve), image.width, image.height, path);
+}
+
 Status OutputFiles::write(const Image& image, std::uint64_t frame, float exposure, ToneCurve curve) const {
   for (const fs::path& name : names_) {
-    const fs::path path = numbered_ ? with_number(name, frame) : name;
-    Status status = name.extension() == ".exr"
-                        ? write_exr(image, path)
-                        : write_png(to_display(image.colours(""), exposure, curve), image.width, image.height, path);
+    Status status = write_picture(image, numbered_ ? with_number(name, frame) : name, exposure, curve);
     if (!status) return status;
   }
   return Done{};

@@ -29,13 +29,16 @@ class OutputFiles {
   bool any_exr() const;
   const std::vector<std::filesystem::path>& names() const { return names_; }
 
-  // The picture of one frame: linear with layers and metadata as .exr; exposed, through the curve and sRGB as .png.
+  // The picture of one frame, under all names.
   Status write(const Image& image, std::uint64_t frame, float exposure, ToneCurve curve) const;
 
  private:
   std::vector<std::filesystem::path> names_;
   bool numbered_ = false;
 };
+
+// Linear with layers and metadata as .exr; exposed, through the curve and sRGB as .png.
+Status write_picture(const Image& image, const std::filesystem::path& path, float exposure, ToneCurve curve);
 
 // Whether a file of this name can be created: tried, and taken back.
 Status check_writable(const std::filesystem::path& path);

@@ -14,6 +14,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  bool shows_steps() const { return terminal_; }
   void step(const std::string& doing);       // on a terminal: replaces the line before
   void note(const std::string& sentence);    // warnings and defaults: always but with --quiet
   void detail(const std::string& sentence);  // with --verbose

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// luciole render: everything that can be refused is refused before the first ray; then the frames, one after another.
+// luciole render: everything that can be refused is refused before the first ray; then the frames, one after another
+// (path_run.h has the other method).
 #include <fmt/format.h>
 
 #include <chrono>
@@ -7,6 +8,7 @@
 
 #include "apps/command_line/accumulator.h"
 #include "apps/command_line/commands.h"
+#include "apps/command_line/path_run.h"
 #include "apps/command_line/progress.h"
 #include "apps/command_line/render_plan.h"
 #include "apps/command_line/stage.h"
@@ -14,6 +16,7 @@
 #include "apps/command_line/version.h"
 #include "base/parallel.h"
 #include "real_time/frame.h"
+#include "real_time/settings_text.h"
 #include "shot/open_shot.h"
 
 namespace luciole {
@@ -63,18 +66,8 @@ class Run {
   Result<Renderer> prepare() {
     progress_.step("loading " + options_.shot);
     const Clock::time_point start = Clock::now();
-    Result<OpenedShot> opened = open_shot(plan_.shot, plan_.folders);
+    Result<OpenedShot> opened = open_stage(plan_.shot, plan_.folders, options_.environment, options_.camera);
     if (!opened) return opened.error();
-    if (!options_.environment.empty()) {
-      Result<Environment> sky = read_environment(options_.environment);
-      if (!sky) return sky.error();
-      opened->scene.environment = std::move(*sky);
-    }
-    if (!options_.camera.empty()) {
-      Result<Camera> camera = choose_camera(opened->scene, options_.camera);
-      if (!camera) return camera.error();
-      opened->camera = *camera;
-    }
     if (opened->primary.empty()) opened->primary = strongest_as_primary(opened->scene);
     statistics_.load_ms = ms_since(start);
     tell(*opened);
@@ -85,7 +78,6 @@ class Run {
 
   void tell(const OpenedShot& opened) {
     statistics_.shot = options_.shot;
-    statistics_.threads = thread_count();
     statistics_.primary_lights = opened.primary.size();
     for (const auto& sentences : {opened.notes, opened.scene.warnings, left_out(opened.scene, opened.primary)}) {
       for (const std::string& sentence : sentences) {
@@ -151,11 +143,27 @@ class Run {
   std::uint64_t pictures_ = 0, complete_frames_ = 0;
 };
 
-Result<int> render(const RenderOptions& options) {
+// Plans what the method needs; the run of a good plan is left in `run`.
+Status plan_run(const RenderOptions& options, Method method, std::function<Result<int>()>& run) {
+  if (method == Method::path) {
+    Result<PathPlan> plan = make_path_plan(options);
+    if (!plan) return plan.error();
+    run = [&options, plan = std::move(*plan)] { return run_path(options, plan); };
+    return Done{};
+  }
   Result<RenderPlan> plan = make_plan(options);
   if (!plan) return plan.error();
+  run = [&options, plan = std::move(*plan)] { return Run(options, plan)(); };
+  return Done{};
+}
+
+Result<int> render(const CLI::App& command, const RenderOptions& options) {
+  const Result<Method> method = chosen_method(command, options);
+  if (!method) return method.error();
+  std::function<Result<int>()> run;
+  if (Status status = plan_run(options, *method, run); !status) return status.error();
   Result<int> outcome = 0;
-  with_threads(options.threads, [&] { outcome = Run(options, std::move(*plan))(); });
+  with_threads(options.threads, [&] { outcome = run(); });
   return outcome;
 }
 
@@ -165,7 +173,8 @@ void add_render_command(CLI::App& program, Command& chosen) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App* command = program.add_subcommand("render", "Render a shot or a scene");
   declare_options(*command, *options);
-  command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
+  command->callback(
+      [options, command, &chosen] { chosen = [options, command] { return render(*command, *options); }; });
 }
 
 }  // namespace luciole

@@ -7,25 +7,22 @@
 
 #include "apps/command_line/folders.h"
 #include "apps/command_line/machine.h"
+#include "apps/command_line/shot_settings.h"
 #include "base/text.h"
 #include "real_time/frame.h"
+#include "real_time/settings_text.h"
 
 namespace luciole {
 namespace {
 
 // Roughly what a frame holds, counted from its planes and lists and rounded up.
-Status check_memory(const Settings& settings, const RenderOptions& options) {
+Status check_frame_memory(const Settings& settings, const RenderOptions& options) {
   constexpr double kBytesPerPixel = 500, kBytesPerLayer = 40, kBytesPerVpl = 400;
   const double pixels = double(settings.width) * settings.height;
   const double accumulated = options.accumulate > 1 ? double(options.layers.size() + 2) * 24 : 0;
   const double bytes = pixels * (kBytesPerPixel + kBytesPerLayer * double(options.layers.size()) + accumulated) +
                        kBytesPerVpl * settings.vpls;
-  const double memory = static_cast<double>(physical_memory_bytes());
-  if (memory <= 0 || bytes <= memory) return Done{};
-  constexpr double kGib = 1024.0 * 1024 * 1024;
-  return Error{ErrorKind::usage,
-               fmt::format("--size {}x{} with {} VPLs needs about {:.0f} GiB of memory and this machine has {:.0f}",
-                           settings.width, settings.height, settings.vpls, bytes / kGib, memory / kGib)};
+  return check_memory(bytes, fmt::format("--size {}x{} with {} VPLs", settings.width, settings.height, settings.vpls));
 }
 
 Status read_layers(const RenderOptions& options, RenderPlan& plan) {
@@ -54,22 +51,19 @@ Status read_settings(const RenderOptions& options, RenderPlan& plan) {
   Result<Shot> shot = find_shot(options.shot, plan.folders);
   if (!shot) return shot.error();
   plan.shot = std::move(*shot);
-  if (Result<Settings> listed = settings_from(plan.shot.settings, {}); !listed) {
-    return Error{ErrorKind::bad_scene, options.shot + ": [settings] " + listed.error().message};
-  }
-  Result<Settings> settings = settings_from(plan.shot.settings, options.settings);
+  const Result<ShotSettings> listed = read_shot_settings(plan.shot.settings, options.shot);
+  if (!listed) return listed.error();
+  Result<Settings> settings = settings_from(listed->frame, options.settings);
   if (!settings) return settings.error();
   plan.settings = *settings;
   if (Result<Isa> isa = choose_isa(plan.settings.isa); !isa) return isa.error();
-  return check_memory(plan.settings, options);
+  return check_frame_memory(plan.settings, options);
 }
 
 Status read_outputs(const RenderOptions& options, RenderPlan& plan) {
-  if (!options.tone_curve.empty()) {
-    const std::optional<ToneCurve> curve = tone_curve_by_name(options.tone_curve);
-    if (!curve) return Error{ErrorKind::usage, "--tone-curve must be pbr-neutral or linear"};
-    plan.tone_curve = *curve;
-  }
+  const Result<ToneCurve> curve = chosen_tone_curve(options);
+  if (!curve) return curve.error();
+  plan.tone_curve = *curve;
   if (!options.frames.empty()) {
     const Result<FrameRange> frames = parse_frame_range(options.frames);
     if (!frames) return frames.error();
@@ -82,6 +76,21 @@ Status read_outputs(const RenderOptions& options, RenderPlan& plan) {
 }
 
 }  // namespace
+
+Result<ToneCurve> chosen_tone_curve(const RenderOptions& options) {
+  if (options.tone_curve.empty()) return ToneCurve::pbr_neutral;
+  const std::optional<ToneCurve> curve = tone_curve_by_name(options.tone_curve);
+  if (!curve) return Error{ErrorKind::usage, "--tone-curve must be pbr-neutral or linear"};
+  return *curve;
+}
+
+Status check_memory(double bytes, const std::string& what) {
+  const double memory = static_cast<double>(physical_memory_bytes());
+  if (memory <= 0 || bytes <= memory) return Done{};
+  constexpr double kGib = 1024.0 * 1024 * 1024;
+  return Error{ErrorKind::usage, fmt::format("{} needs about {:.0f} GiB of memory and this machine has {:.0f}", what,
+                                             bytes / kGib, memory / kGib)};
+}
 
 Result<RenderPlan> make_plan(const RenderOptions& options) {
   RenderPlan plan;

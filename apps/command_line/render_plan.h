@@ -12,7 +12,7 @@
 
 namespace luciole {
 
-// A run whose every part was found good, before anything heavy happened.
+// A run of frames whose every part was found good, before anything heavy happened.
 struct RenderPlan {
   Shot shot;
   SearchFolders folders;
@@ -23,6 +23,13 @@ struct RenderPlan {
   std::vector<std::string> layers;  // asked of the renderer
   bool variance = false;
 };
+
+// By name; the default for an empty one.
+Result<ToneCurve> chosen_tone_curve(const RenderOptions& options);
+
+// A sentence for a run that needs more memory than the machine has.
+//   what   "--size 640x480 with 10 VPLs"
+Status check_memory(double bytes, const std::string& what);
 
 // Checks all that can be checked before a scene is loaded: shot, settings, memory, outputs, layers.
 Result<RenderPlan> make_plan(const RenderOptions& options);

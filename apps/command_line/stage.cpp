@@ -60,6 +60,23 @@ std::optional<Camera> parse_camera(std::string_view text) {
 
 }  // namespace
 
+Result<OpenedShot> open_stage(const Shot& shot, const SearchFolders& folders, const std::string& environment,
+                              const std::string& camera) {
+  Result<OpenedShot> opened = open_shot(shot, folders);
+  if (!opened) return opened;
+  if (!environment.empty()) {
+    Result<Environment> sky = read_environment(environment);
+    if (!sky) return sky.error();
+    opened->scene.environment = std::move(*sky);
+  }
+  if (!camera.empty()) {
+    Result<Camera> chosen = choose_camera(opened->scene, camera);
+    if (!chosen) return chosen.error();
+    opened->camera = *chosen;
+  }
+  return opened;
+}
+
 Result<Camera> choose_camera(const Scene& scene, const std::string& text) {
   std::vector<std::string> names;
   for (const Camera& camera : scene.cameras) {

@@ -8,8 +8,13 @@
 #include "base/result.h"
 #include "real_time/reflective_shadow_map/primary_light.h"
 #include "scene/scene.h"
+#include "shot/open_shot.h"
 
 namespace luciole {
+
+// The shot, with the sky and the camera that the command line asks for; empty: not asked for.
+Result<OpenedShot> open_stage(const Shot& shot, const SearchFolders& folders, const std::string& environment,
+                              const std::string& camera);
 
 // A camera of the scene by name or index (from 0), or "eye/target/degrees" with "x,y,z" in metres and the vertical
 // field of view; "/degrees" may be left out.

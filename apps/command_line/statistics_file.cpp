@@ -71,13 +71,21 @@ Json medians(const std::vector<Json>& frames) {
   return result;
 }
 
-// Settings are kept as text; numbers and switches become JSON's own.
-Json typed(const std::string& text) {
+}  // namespace
+
+nlohmann::ordered_json typed_json(const std::string& text) {
   const Json value = Json::parse(text, nullptr, false);
   return value.is_number() || value.is_boolean() ? value : Json(text);
 }
 
-}  // namespace
+nlohmann::ordered_json machine_json(Isa wanted) {
+  const Result<Isa> isa = choose_isa(wanted);
+  return {{"instruction_set", isa ? to_string(*isa) : "none"},
+          {"threads", thread_count()},
+          {"processor", processor_name()},
+          {"version", kVersion},
+          {"commit", kCommit}};
+}
 
 std::string statistics_json(const RunStatistics& run) {
   std::vector<Json> frames;
@@ -88,14 +96,9 @@ std::string statistics_json(const RunStatistics& run) {
   object["peak_memory_bytes"] = peak_memory_bytes();
   object["shot"] = run.shot;
   object["primary_lights"] = run.primary_lights;
-  for (const auto& [name, text] : settings_as_text(run.settings)) object["settings"][name] = typed(text);
+  for (const auto& [name, text] : settings_as_text(run.settings)) object["settings"][name] = typed_json(text);
   object["seed"] = run.settings.seed;
-  const Result<Isa> isa = choose_isa(run.settings.isa);
-  object["instruction_set"] = isa ? to_string(*isa) : "none";
-  object["threads"] = run.threads;
-  object["processor"] = processor_name();
-  object["version"] = kVersion;
-  object["commit"] = kCommit;
+  object.update(machine_json(run.settings.isa));
   object["notes"] = run.notes;
   if (frames.size() > 1) {
     for (std::size_t i = 0; i < frames.size(); ++i) {

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,7 +16,6 @@ namespace luciole {
 struct RunStatistics {
   std::string shot;
   Settings settings;
-  int threads = 0;
   double load_ms = 0, bvh_ms = 0;
   std::uint64_t primary_lights = 0;
   std::vector<std::string> notes;  // defaults that were filled in, and warnings of the scene
@@ -25,6 +25,12 @@ struct RunStatistics {
 // One frame's figures stand at the top; of several frames the top holds the medians, and `frames` all of them.
 // Counts per pixel are {total, diffuse, glossy}; means over pixels that show a surface.
 std::string statistics_json(const RunStatistics& run);
+
+// A setting's text as JSON's own number or switch, where it is one.
+nlohmann::ordered_json typed_json(const std::string& text);
+
+// Instruction set, threads, processor, version and commit.
+nlohmann::ordered_json machine_json(Isa wanted);
 
 Status write_text(const std::string& text, const std::filesystem::path& path);
 
