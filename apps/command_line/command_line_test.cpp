@@ -100,6 +100,8 @@ TEST_F(CommandLine, misuse_is_refused_with_one_sentence_and_exit_code_2) {
   EXPECT_REFUSED(2, {"render", "recipe:castle", "-o", "out/a.exr"});
   EXPECT_REFUSED(2, {"make", "ring", "alpha", "-o", "out/a.glb"});
   EXPECT_REFUSED(2, {"make", "ring", "-o", "out/a.obj"});
+  EXPECT_REFUSED(2, {"make", "ring", "--size", "64x36", "-o", "out/a.glb"});
+  EXPECT_REFUSED(2, {"make", "lamps", "matte=1", "--bounces", "0", "-o", "out/a.pbrt"});
 }
 
 TEST_F(CommandLine, zero_and_huge_sizes_are_refused_before_anything_is_loaded) {
@@ -130,6 +132,7 @@ TEST_F(CommandLine, bad_scenes_end_with_exit_code_3) {
   EXPECT_REFUSED(3, {"render", "broken.toml", "-o", "out/a.exr"});
   std::ofstream(folder_ / "settings.toml") << "scene = 'recipe:ring'\n[settings]\nvplz = 3\n";
   EXPECT_REFUSED(3, {"render", "settings.toml", "-o", "out/a.exr"});
+  EXPECT_REFUSED(3, {"make", "lamps", "count=10", "-o", "out/a.pbrt"});
   // The control: the same file without the fault is rendered.
   std::ofstream(folder_ / "right.toml") << "scene = 'recipe:cornell'\n[settings]\nvpls = 64\nsize = [16, 9]\n";
   EXPECT_EQ(run({"render", "right.toml", "-o", "out/a.exr"}).exit_code, 0);
@@ -142,6 +145,18 @@ TEST_F(CommandLine, a_recipe_comes_back_from_its_file) {
   ASSERT_EQ(file.exit_code, 0) << file.complained;
   const auto triangles = [](const std::string& text) { return text.substr(text.find("triangles"), 40); };
   EXPECT_EQ(triangles(recipe.said), triangles(file.said));
+}
+
+TEST_F(CommandLine, a_matte_recipe_is_written_for_pbrt) {
+  const Outcome made = run({"make", "lamps", "count=10", "matte=1", "--size", "64x36", "--bounces", "1", "--samples",
+                            "8", "-o", "out/lamps.pbrt"});
+  ASSERT_EQ(made.exit_code, 0) << made.complained;
+  const std::string text = content(folder_ / "out/lamps.pbrt");
+  for (const char* part : {"\"integer xresolution\" [ 64 ]", "\"integer yresolution\" [ 36 ]",
+                           "\"integer maxdepth\" [ 1 ]", "\"integer pixelsamples\" [ 8 ]", "\"lamps_0.ply\""}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "out/lamps_0.ply"));
 }
 
 TEST_F(CommandLine, interrupted_accumulation_writes_what_is_complete) {

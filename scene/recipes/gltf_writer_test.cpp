@@ -182,7 +182,8 @@ TEST(GltfWriter, every_recipe_survives_the_way_through_a_file) {
       {"ring", {}},
       {"gallery", {{"detail", "0.01"}}},
       {"lights", {{"count", "50"}}},
-      {"lamps", {{"count", "203"}, {"textured", "1"}}}};
+      {"lamps", {{"count", "203"}, {"textured", "1"}}},
+      {"lamps", {{"count", "17"}, {"matte", "1"}}}};
   for (const auto& [name, parameters] : recipes) {
     const Scene scene = *make_recipe(name, parameters);
     expect_same(scene, written_and_read(scene, scratch(std::string(name) + ".glb")));

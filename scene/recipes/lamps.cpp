@@ -98,6 +98,9 @@ Scene make_lamps(const Values& values) {
     if (by_kind[kind].indices.empty()) continue;
     add_mesh(scene, "lamps " + std::to_string(kind), first_lamp + kind, std::move(by_kind[kind]));
   }
+  if (values.at("matte") == 1) {
+    for (Material& material : scene.materials) material = made_matte(material);
+  }
   scene.cameras.push_back(named_camera("hall", {{1.1f, 1.6f, 8.4f}, {-0.3f, 1.75f, 0}}, 56));
   return scene;
 }
@@ -109,6 +112,8 @@ Recipe lamps_recipe() {
            "a hall of columns hung with lamps: many emissive triangles",
            {{"count", "number of emissive triangles", 100000, 1, 1048576, true},
             {"textured", "1: the lamps have striped shades (an emissive texture)", 0, 0, 1, true},
+            {"matte", "1: no surface reflects, also floor, ball and jar scatter evenly, as pbrt can show it", 0, 0, 1,
+             true},
             {"seed", "another seed, another arrangement", 1, 0, 4294967295.0, true}}},
           make_lamps};
 }

@@ -34,6 +34,14 @@ Material matte_material(std::string name, Vec3 albedo) {
   return material;
 }
 
+Material made_matte(Material material) {
+  material.metallic = 0, material.roughness = 1;
+  material.metallic_roughness_texture = {};
+  material.dielectric_f0 = {0, 0, 0};
+  material.dielectric_f90 = 0;
+  return material;
+}
+
 void add_mesh(Scene& scene, std::string name, std::uint32_t material, Mesh mesh) {
   mesh.name = std::move(name);
   mesh.material = material;

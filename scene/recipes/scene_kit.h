@@ -16,6 +16,8 @@ Material dielectric_material(std::string name, Vec3 albedo, float ggx_alpha);
 
 // Scatters light evenly and reflects none (KHR_materials_specular factor 0).
 Material matte_material(std::string name, Vec3 albedo);
+// The same colour, textures and emission on a surface that scatters evenly and reflects none.
+Material made_matte(Material material);
 
 // Leaves out what is not used: lone vertices, and texture coordinates where the material has no texture.
 void add_mesh(Scene& scene, std::string name, std::uint32_t material, Mesh mesh);
