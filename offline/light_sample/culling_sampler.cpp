@@ -11,7 +11,7 @@
 namespace luciole {
 namespace {
 
-constexpr float kSharedRanges = 1;  // times the size of a group
+constexpr float kSharedRanges = 2;  // times the size of a group
 
 }  // namespace
 CullingSampler::CullingSampler(const LightSet& lights, const PathSettings& settings,

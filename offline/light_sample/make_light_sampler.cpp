@@ -16,8 +16,8 @@ namespace luciole {
 namespace {
 
 // Lights accepted per surface point and pass. More are better chosen among and cost more: the least error in equal time
-// is flat between 16 and 48 (docs/results/light_choice.md).
-constexpr double kAccepted = 24;
+// is flat between 12 and 24 (docs/decisions/0013-choice-of-lights-offline.md).
+constexpr double kAccepted = 16;
 constexpr std::uint32_t kMostProbed = 4096;  // lights that the floor is fitted to
 
 // Unoccluded radiances I s / l^2, counted by size: eighths of octaves.
