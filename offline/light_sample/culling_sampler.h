@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stochastic light culling: the lights whose range of this pass holds the point, one of them by weight.   [TH16] sect.
-// 5
+// Stochastic light culling: of the lights whose range of this pass holds the point one by weight.   [TH16] sect. 5
 #pragma once
 #include "offline/light_sample/light_sampler.h"
 #include "offline/light_sample/weighted_choice.h"
@@ -39,6 +38,7 @@ class CullingSampler : public LightSampler {
   Weighing weighing() const { return {weight_, parameters_.radiance_floor, settings_.isa}; }
   // p, [TH17] Eq. 2 with the mean intensity of the channels.
   float probability_to_overlap(std::uint32_t light, const LightPlace& place) const;
+
   const LightSet& lights_;
   PathSettings settings_;
   CullingParameters parameters_;

@@ -14,7 +14,7 @@ namespace luciole {
 
 // What a choice leaves behind for the multiple importance sampling of the ray that the BSDF samples next.
 struct ChoiceMemory {
-  static constexpr std::uint32_t kMostListed = 32;
+  static constexpr std::uint32_t kMostListed = 32;  // as settings.cpp allows
   float total_weight = 0;         // of all lights that were weighed
   std::uint32_t overlapping = 0;  // m: lights that overlapped; only of lists
   std::uint32_t listed = 0;       // of them in the list
