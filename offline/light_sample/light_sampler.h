@@ -15,9 +15,9 @@ namespace luciole {
 // What a choice leaves behind for the multiple importance sampling of the ray that the BSDF samples next.
 struct ChoiceMemory {
   static constexpr std::uint32_t kMostListed = 32;  // as settings.cpp allows
-  float total_weight = 0;         // of all lights that were weighed
-  std::uint32_t overlapping = 0;  // m: lights that overlapped; only of lists
-  std::uint32_t listed = 0;       // of them in the list
+  float total_weight = 0;                           // of all lights that were weighed
+  std::uint32_t overlapping = 0;                    // m: lights that overlapped; only of lists
+  std::uint32_t listed = 0;                         // of them in the list
   std::array<std::uint32_t, kMostListed> light;
   std::array<float, kMostListed> weight;
 };
