@@ -15,6 +15,7 @@ namespace luciole {
 struct PathTracer::State {
   PathSettings settings;
   RayScene rays;
+  SurfaceTables surfaces;
   LightSet lights;
   InfiniteLights infinite;
   CameraRays camera;
@@ -27,6 +28,7 @@ struct PathTracer::State {
   State(RayScene traced, const Camera& view, const PathSettings& wanted)
       : settings(wanted),
         rays(std::move(traced)),
+        surfaces(rays.scene()),
         lights(rays.scene()),
         infinite(rays.scene()),
         camera(view, with_focus(wanted, rays, view)),
@@ -70,8 +72,8 @@ Result<PathTracer> PathTracer::create(std::shared_ptr<const Scene> scene, const 
 bool PathTracer::add_sample(Film& film) {
   State& s = *state_;
   s.sampler->begin_pass(film.range().end);
-  const PathContext context{s.rays,   s.lights,  s.infinite, *s.sampler,
-                            s.camera, s.visible, s.settings, film.range().end};
+  const PathContext context{s.rays,   s.surfaces, s.lights,   s.infinite,      *s.sampler,
+                            s.camera, s.visible,  s.settings, film.range().end};
   const std::uint32_t columns = (s.settings.width + PathBatch::kSide - 1) / PathBatch::kSide;
   const std::uint32_t rows = (s.settings.height + PathBatch::kSide - 1) / PathBatch::kSide;
   std::mutex guard;

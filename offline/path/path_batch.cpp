@@ -20,6 +20,18 @@ float mean(Vec3 v) { return (v.x + v.y + v.z) * (1.0f / 3.0f); }
 bool is_black(Vec3 v) { return !(v.x > 0 || v.y > 0 || v.z > 0); }
 Vec3 point_of(const float v[3]) { return {v[0], v[1], v[2]}; }
 
+// What paths ask of a surface, of one lane.
+SurfacePoint point_of(const SurfaceAnswers& answers, int lane) {
+  const auto vector = [lane](const float v[3][kSurfaceLanes]) { return Vec3(v[0][lane], v[1][lane], v[2][lane]); };
+  SurfacePoint point{};
+  point.position = vector(answers.position);
+  point.geometric_normal = vector(answers.geometric_normal), point.shading_normal = vector(answers.shading_normal);
+  point.diffuse_albedo = vector(answers.diffuse_albedo), point.f0 = vector(answers.f0);
+  point.f90 = answers.f90[lane], point.ggx_alpha = answers.ggx_alpha[lane];
+  point.emission = vector(answers.emission);
+  return point;
+}
+
 void copy(Vec3 from, float to[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
 
 // The balance heuristic: weight of a technique beside another one.   [Veach and Guibas 1995]
@@ -97,25 +109,55 @@ void PathBatch::trace_all(std::uint32_t scattering) {
     }
     statistics_.rays += static_cast<std::uint64_t>(count);
     const HitPacket hits = context_.rays.intersect(packet, coherence);
-    for (int lane = 0; lane < count; ++lane) {
-      const std::uint32_t index = active_[first + static_cast<std::size_t>(lane)];
-      if (hits.mesh[lane] == kNoHit) {
-        add_sky(paths_[index]);
-        continue;
-      }
-      const SurfaceHit hit{hits.mesh[lane], hits.triangle[lane], hits.u[lane], hits.v[lane]};
-      arrive(index, hit, hits.distance[lane], scattering);
-    }
+    arrive_all(&active_[first], count, hits, scattering);
   }
 }
 
-void PathBatch::arrive(std::uint32_t index, const SurfaceHit& hit, float distance, std::uint32_t scattering) {
+void PathBatch::arrive_all(const std::uint32_t* paths, int count, const HitPacket& hits, std::uint32_t scattering) {
+  SurfaceAnswers answers;
+  const bool together = count == kPacketRays && std::all_of(hits.mesh, hits.mesh + count, [&](std::uint32_t mesh) {
+                          return mesh == hits.mesh[0] && mesh != kNoHit;
+                        });
+  if (together) evaluate_together(paths, hits, scattering, answers);
+  for (int lane = 0; lane < count; ++lane) {
+    Path& path = paths_[paths[lane]];
+    if (hits.mesh[lane] == kNoHit) {
+      add_sky(path);
+      continue;
+    }
+    const SurfaceHit hit{hits.mesh[lane], hits.triangle[lane], hits.u[lane], hits.v[lane]};
+    const float distance = hits.distance[lane];
+    const SurfacePoint point =
+        together ? point_of(answers, lane)
+                 : evaluate_surface(context_.rays.scene(), hit, path.direction, cone_width(path, distance, scattering));
+    arrive(paths[lane], hit, distance, point, scattering);
+  }
+}
+
+// Sixteen surface points of one mesh: most of what the camera's packets meet.
+void PathBatch::evaluate_together(const std::uint32_t* paths, const HitPacket& hits, std::uint32_t scattering,
+                                  SurfaceAnswers& answers) const {
+  SurfaceQueries queries;
+  for (int lane = 0; lane < kPacketRays; ++lane) {
+    const Path& path = paths_[paths[lane]];
+    queries.triangle[lane] = hits.triangle[lane], queries.u[lane] = hits.u[lane], queries.v[lane] = hits.v[lane];
+    queries.ray_direction[0][lane] = path.direction.x, queries.ray_direction[1][lane] = path.direction.y;
+    queries.ray_direction[2][lane] = path.direction.z;
+    queries.cone_width[lane] = cone_width(path, hits.distance[lane], scattering);
+  }
+  const SurfaceMesh& mesh = context_.surfaces.mesh(hits.mesh[0]);
+  LUCIOLE_FOR_ISA(context_.settings.isa, evaluate_surfaces(mesh, queries, answers));
+}
+
+// Textures at the camera's footprint where the eye sees them; behind a reflection at their finest, as shadow rays see
+// emitters.
+float PathBatch::cone_width(const Path& path, float distance, std::uint32_t scattering) const {
+  return scattering == 0 ? context_.camera.pixel_size() * context_.camera.depth(path.direction, distance) : 0;
+}
+
+void PathBatch::arrive(std::uint32_t index, const SurfaceHit& hit, float distance, const SurfacePoint& point,
+                       std::uint32_t scattering) {
   Path& path = paths_[index];
-  // Textures at the camera's footprint where the eye sees them; behind a reflection at their finest, as shadow rays see
-  // emitters.
-  const float cone =
-      scattering == 0 ? context_.camera.pixel_size() * context_.camera.depth(path.direction, distance) : 0;
-  const SurfacePoint point = evaluate_surface(context_.rays.scene(), hit, path.direction, cone);
   if (scattering == 0) {
     path.albedo = point.diffuse_albedo + point.f0;
     path.normal = point.shading_normal;

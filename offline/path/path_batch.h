@@ -15,12 +15,15 @@
 #include "offline/path/visible_emitters.h"
 #include "offline/render.h"
 #include "ray_tracing/ray_scene.h"
+#include "scene/make_surface_tables.h"
+#include "scene/surface_kernel.h"
 
 namespace luciole {
 
 // What paths need to know; all of it constant within a pass.
 struct PathContext {
   const RayScene& rays;
+  const SurfaceTables& surfaces;
   const LightSet& lights;
   const InfiniteLights& infinite;
   const LightSampler& sampler;
@@ -70,7 +73,12 @@ class PathBatch {
 
   void begin(std::uint32_t left, std::uint32_t top);
   void trace_all(std::uint32_t scattering);
-  void arrive(std::uint32_t index, const SurfaceHit& hit, float distance, std::uint32_t scattering);
+  void arrive_all(const std::uint32_t* paths, int count, const HitPacket& hits, std::uint32_t scattering);
+  void evaluate_together(const std::uint32_t* paths, const HitPacket& hits, std::uint32_t scattering,
+                         SurfaceAnswers& answers) const;
+  float cone_width(const Path& path, float distance, std::uint32_t scattering) const;
+  void arrive(std::uint32_t index, const SurfaceHit& hit, float distance, const SurfacePoint& point,
+              std::uint32_t scattering);
   void scatter_all(std::uint32_t scattering);
   void scatter_group(const std::uint32_t* arrivals, std::uint32_t count, std::uint32_t scattering);
   bool scatter(const Arrival& arrival, const Bsdf& bsdf, std::uint32_t scattering);  // whether the path goes on
