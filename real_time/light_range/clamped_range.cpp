@@ -120,7 +120,7 @@ float clamped_xi(const ShadingInputs& inputs) {
   Sample sample(inputs);
   const double target = sample.expected();
   float low = -32, high = 0;  // log2 of xi: fewer lights are accepted as it grows
-  for (int i = 0; i < kBisections; ++i) {
+  for (int i = 0; i < kBisections && !stop_requested(); ++i) {
     const float middle = 0.5f * (low + high);
     (sample.accepted(std::exp2(middle)) > target ? low : high) = middle;
   }
