@@ -67,6 +67,10 @@ TEST(LineOfSight, does_not_depend_on_the_order_of_triangles) {
   }
   std::vector<SightLine> lines;
   for (const Vec3 direction : even_directions(500)) lines.push_back({{4.7f, 4.65f, 4.6f}, direction});
+  for (const Vec3 axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {  // in the planes of the boxes' sides
+    for (const float sign : {1.0f, -1.0f})
+      lines.push_back({{4 + 0.5f * axis.x, 4 + 0.5f * axis.y, 4 + 0.5f * axis.z}, axis * sign});
+  }
   const std::vector<Sight> expected = look_along(ordered, lines), found = look_along(shuffled, lines);
   std::size_t met = 0;
   for (std::size_t k = 0; k < lines.size(); ++k) {
@@ -75,6 +79,7 @@ TEST(LineOfSight, does_not_depend_on_the_order_of_triangles) {
   }
   EXPECT_GT(met, 100u);
   EXPECT_LT(met, 500u);
+  for (std::size_t k = 500; k < lines.size(); ++k) EXPECT_TRUE(found[k].met());
 }
 
 TEST(FramingCamera, stands_inside_rooms_and_outside_objects) {

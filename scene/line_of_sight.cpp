@@ -28,14 +28,16 @@ void meet(const SightLine& line, Vec3 a, Vec3 e1, Vec3 e2, Sight& sight) {
   if (distance > line.nearest && distance < sight.distance) sight = {distance, determinant > 0};
 }
 
-// Whether a line passes through a box before it meets what it has met so far. A box of no width is passed on its rim: a
-// product of zero and infinity is no number and decides nothing.
+// Finite also along an axis: a line that starts on the side of a box would get zero times infinity there.
+float inverse(float x) { return std::abs(x) > 1e-20f ? 1 / x : 1e20f; }
+
+// Whether a line passes through a box before it meets what it has met so far.
 bool passes(const SightLine& line, Vec3 inverse_direction, const Bounds& box, float furthest) {
   const Vec3 t0 = (box.low - line.origin) * inverse_direction, t1 = (box.high - line.origin) * inverse_direction;
   float enter = 0, leave = furthest;
   for (const auto& [a, b] : {std::pair(t0.x, t1.x), std::pair(t0.y, t1.y), std::pair(t0.z, t1.z)}) {
-    enter = std::fmax(enter, std::fmin(a, b));
-    leave = std::fmin(leave, std::fmax(a, b));
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
   }
   return enter <= leave * 1.00001f;
 }
@@ -65,12 +67,15 @@ class Block {
 std::vector<Sight> look_along(const Scene& scene, const std::vector<SightLine>& lines) {
   std::vector<Sight> sights(lines.size());
   parallel_for(lines.size(), kLinesPerTask, [&](std::size_t begin, std::size_t end) {
-    std::vector<Vec3> inverse;
-    for (std::size_t k = begin; k < end; ++k) inverse.push_back(Vec3(1, 1, 1) / lines[k].direction);
+    std::vector<Vec3> inverses;
+    for (std::size_t k = begin; k < end; ++k) {
+      const Vec3 d = lines[k].direction;
+      inverses.emplace_back(inverse(d.x), inverse(d.y), inverse(d.z));
+    }
     for (const Mesh& mesh : scene.meshes) {
       for (std::size_t i = 0; i < mesh.indices.size(); i += kIndicesPerBlock) {
         const Block block(mesh, i, std::min(i + kIndicesPerBlock, mesh.indices.size()));
-        for (std::size_t k = begin; k < end; ++k) block.look(lines[k], inverse[k - begin], sights[k]);
+        for (std::size_t k = begin; k < end; ++k) block.look(lines[k], inverses[k - begin], sights[k]);
       }
     }
   });
