@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/stage.h"
 #include "base/isa.h"
+#include "benchmarks/stage.h"
 #include "real_time/light_culling/tile.h"
 #include "real_time/light_range/light_range.h"
 #include "real_time/shading/shade_kernel.h"

@@ -14,10 +14,10 @@
 #include <map>
 #include <string>
 
+#include "base/isa.h"
 #include "base/parallel.h"
 #include "benchmarks/hand_written_kernel.h"
 #include "benchmarks/listed_groups.h"
-#include "base/isa.h"
 
 #if defined(LUCIOLE_OTHER_COMPILER)
 namespace luciole::other_compiler {

@@ -46,7 +46,8 @@ struct PathSettings {
   std::uint32_t list_length = 8;  // k of Resampling::list
   Importance importance = Importance::reflected;
   RangeNumbers range_samples = RangeNumbers::independent;
-  float error_bound = 0;  // [TH16] eps_max, display units, of one light in one pass; 0: so that some two dozen lights overlap
+  float error_bound =
+      0;  // [TH16] eps_max, display units, of one light in one pass; 0: so that some two dozen lights overlap
   PixelFilter pixel_filter = PixelFilter::gaussian;
   float aperture = 0;  // radius of the thin lens [m]; 0: a pinhole
   float focus = 0;     // distance to the plane in focus [m]; 0: what the picture's centre shows

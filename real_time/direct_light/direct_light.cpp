@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
+#include "base/isa.h"
 #include "base/parallel.h"
 #include "real_time/direct_light/direct_light_kernel.h"
-#include "base/isa.h"
 
 namespace luciole {
 namespace {

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <vector>
 
-#include "base/parallel.h"
 #include "base/isa.h"
+#include "base/parallel.h"
 #include "real_time/light_culling/tile.h"
 #include "real_time/shading/predict_kernel.h"
 #include "real_time/shading/shade_kernel.h"

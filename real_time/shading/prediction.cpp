@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "base/parallel.h"
 #include "base/isa.h"
+#include "base/parallel.h"
 #include "real_time/light_culling/tile.h"
 #include "real_time/shading/predict_kernel.h"
 
