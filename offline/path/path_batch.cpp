@@ -40,6 +40,11 @@ float balance(float own, float other) { return own / (own + other); }
 // Surface points that share their candidates. Sixteen along the curve lie close together.
 constexpr std::uint32_t kGroup = 16;
 
+// Unlit materials show a colour to the eye, and light nothing.
+bool is_unlit(const Scene& scene, const SurfaceHit& hit) {
+  return scene.materials[scene.meshes[hit.mesh].material].unlit;
+}
+
 // Pixels of a tile in the order of 4x4 blocks: one packet each.
 constexpr std::uint32_t kBlocks = PathBatch::kSide / 4;
 std::uint32_t block_x(std::uint32_t i) { return (i / 16 % kBlocks) * 4 + i % 4; }
@@ -162,7 +167,8 @@ void PathBatch::arrive(std::uint32_t index, const SurfaceHit& hit, float distanc
     path.albedo = point.diffuse_albedo + point.f0;
     path.normal = point.shading_normal;
   }
-  if (!is_black(point.emission)) add_emission(path, hit, distance, point);
+  if (!is_black(point.emission) && (path.bsdf_pdf == 0 || !is_unlit(context_.rays.scene(), hit)))
+    add_emission(path, hit, distance, point);
   if (scattering < context_.settings.bounces) arrivals_.push_back({place_of(point.position), index, point});
 }
 
