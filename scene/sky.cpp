@@ -28,4 +28,23 @@ Vec3 sky_radiance(const Environment& environment, Vec3 direction) {
   return environment.radiance * (above * (1 - down) + below * down);
 }
 
+double sky_texel_solid_angle(const Environment& environment, std::uint32_t row) {
+  constexpr double kPi = std::numbers::pi;
+  const double top = kPi * row / environment.height, bottom = kPi * (row + 1) / environment.height;
+  return 2 * kPi / environment.width * (std::cos(top) - std::cos(bottom));
+}
+
+Vec3 sky_direction(const Environment& environment, std::size_t texel, double across, double down) {
+  constexpr double kPi = std::numbers::pi;
+  const auto row = static_cast<std::uint32_t>(texel / environment.width);
+  const auto column = static_cast<std::uint32_t>(texel % environment.width);
+  const double azimuth = 2 * kPi * ((column + across) / environment.width - 0.5);
+  const double cos_top = std::cos(kPi * row / environment.height);
+  const double cos_bottom = std::cos(kPi * (row + 1) / environment.height);
+  const double y = cos_top + (cos_bottom - cos_top) * down;
+  const double level = std::sqrt(std::max(1 - y * y, 0.0));
+  return {static_cast<float>(level * std::sin(azimuth)), static_cast<float>(y),
+          static_cast<float>(-level * std::cos(azimuth))};
+}
+
 }  // namespace luciole

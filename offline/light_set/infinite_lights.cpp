@@ -12,14 +12,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-double mean(Vec3 v) { return (double(v.x) + v.y + v.z) / 3; }
-
-// Solid angle of one texel of a row [sr].
-double texel_solid_angle(const Environment& sky, std::uint32_t row) {
-  const double top = kPi * row / sky.height, bottom = kPi * (row + 1) / sky.height;
-  return 2 * kPi / sky.width * (std::cos(top) - std::cos(bottom));
-}
-
 // The look-up is bilinear: a texel's weight must not be 0 where a neighbour's light reaches into it.
 double brightest_around(const Environment& sky, std::uint32_t row, std::uint32_t column) {
   double brightest = 0;
@@ -28,9 +20,11 @@ double brightest_around(const Environment& sky, std::uint32_t row, std::uint32_t
       const auto r = std::clamp<std::int64_t>(std::int64_t(row) + down, 0, std::int64_t(sky.height) - 1);
       const auto c = (std::int64_t(column) + across + sky.width) % sky.width;
       const double weight = across == 0 && down == 0 ? 1.0 : 0.25;
-      brightest = std::max(
-          brightest, weight * mean(sky.radiance *
-                                   sky.pixels[static_cast<std::size_t>(r) * sky.width + static_cast<std::size_t>(c)]));
+      brightest =
+          std::max(brightest,
+                   double(weight) *
+                       channel_mean(sky.radiance *
+                                    sky.pixels[static_cast<std::size_t>(r) * sky.width + static_cast<std::size_t>(c)]));
     }
   }
   return brightest;
@@ -41,15 +35,15 @@ double brightest_around(const Environment& sky, std::uint32_t row, std::uint32_t
 InfiniteLights::InfiniteLights(const Scene& scene) : environment_(&scene.environment) {
   double sun_power = 0, sky_power = 0;
   for (const PunctualLight& light : scene.lights) {
-    if (light.kind != PunctualLight::Kind::directional || !(mean(light.intensity) > 0)) continue;
-    sun_power += mean(light.intensity);
+    if (light.kind != PunctualLight::Kind::directional || !(channel_mean(light.intensity) > 0)) continue;
+    sun_power += channel_mean(light.intensity);
     suns_.push_back({-light.direction, light.intensity, sun_power});
   }
   for (Sun& sun : suns_) sun.running_share /= sun_power;
   const Environment& sky = *environment_;
   sums_.reserve(sky.pixels.size());
   for (std::uint32_t row = 0; row < sky.height && !sky.pixels.empty(); ++row) {
-    const double solid_angle = texel_solid_angle(sky, row);
+    const double solid_angle = sky_texel_solid_angle(sky, row);
     for (std::uint32_t column = 0; column < sky.width; ++column) {
       sums_.push_back(sky_power += brightest_around(sky, row, column) * solid_angle);
     }
@@ -72,13 +66,7 @@ InfiniteLightSample InfiniteLights::sample(double choice, Vec2 place) const {
   const Environment& sky = *environment_;
   const double wanted = (choice - sun_share_) / (1 - sun_share_) * sums_.back();
   const auto texel = static_cast<std::size_t>(std::upper_bound(sums_.begin(), sums_.end() - 1, wanted) - sums_.begin());
-  const auto row = static_cast<std::uint32_t>(texel / sky.width),
-             column = static_cast<std::uint32_t>(texel % sky.width);
-  const double azimuth = 2 * kPi * ((column + double(place.x)) / sky.width - 0.5);
-  const double cos_top = std::cos(kPi * row / sky.height), cos_bottom = std::cos(kPi * (row + 1) / sky.height);
-  const double y = cos_top + (cos_bottom - cos_top) * place.y, level = std::sqrt(std::max(1 - y * y, 0.0));
-  sample.direction = {static_cast<float>(level * std::sin(azimuth)), static_cast<float>(y),
-                      static_cast<float>(-level * std::cos(azimuth))};
+  sample.direction = sky_direction(sky, texel, place.x, place.y);
   sample.radiance = sky_radiance(sky, sample.direction);
   sample.pdf = sky_pdf(sample.direction);
   return sample;
@@ -93,7 +81,7 @@ float InfiniteLights::sky_pdf(Vec3 direction) const {
   const auto row = std::min(static_cast<std::uint32_t>(v * sky.height), sky.height - 1);
   const std::size_t texel = std::size_t(row) * sky.width + column;
   const double power = sums_[texel] - (texel > 0 ? sums_[texel - 1] : 0);
-  return static_cast<float>((1 - sun_share_) * power / (sums_.back() * texel_solid_angle(sky, row)));
+  return static_cast<float>((1 - sun_share_) * power / (sums_.back() * sky_texel_solid_angle(sky, row)));
 }
 
 }  // namespace luciole

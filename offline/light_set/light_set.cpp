@@ -13,8 +13,6 @@
 namespace luciole {
 namespace {
 
-float mean(Vec3 v) { return (v.x + v.y + v.z) * (1.0f / 3.0f); }
-
 void set_axis(LightRecord& record, Vec3 axis) {
   record.axis_x = axis.x, record.axis_y = axis.y, record.axis_z = axis.z;
 }
@@ -29,7 +27,7 @@ LightRecord triangle_record(const Scene& scene, const EmissiveTriangle& triangle
   set_centre(record, centre);
   record.radius = std::max({length(a - centre), length(b - centre), length(c - centre)}) * 1.00001f;
   set_axis(record, normalize(cross(b - a, c - a)));
-  record.intensity = mean(triangle.radiance) * triangle.area;
+  record.intensity = channel_mean(triangle.radiance) * triangle.area;
   record.scale = 1, record.two_sided = triangle.both_sides ? 1.0f : 0.0f;
   // Reach of a cosine lobe: the smallest sphere round it, or round two of them back to back.   [TH17] sect. 6
   const f32::BoundingSphere lobe = f32::diffuse_bounding_sphere({0, 0, 0}, {0, 0, 1}, 1);
@@ -42,7 +40,7 @@ LightRecord triangle_record(const Scene& scene, const EmissiveTriangle& triangle
 LightRecord lamp_record(const PunctualLight& light, std::uint32_t index) {
   LightRecord record{};
   set_centre(record, light.position);
-  record.intensity = mean(light.intensity);
+  record.intensity = channel_mean(light.intensity);
   record.lamp = 1, record.mesh = index;
   record.reach_radius = 1;
   if (light.kind == PunctualLight::Kind::point) {

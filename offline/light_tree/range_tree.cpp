@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/fold_seed.h"
 #include "base/parallel.h"
 #include "equations/cpp/float.h"
 
@@ -67,7 +68,7 @@ int RangeTree::octave_of(std::uint32_t light) const {
 
 void RangeTree::draw(std::uint64_t seed, std::uint64_t pass, RangeNumbers numbers, float radiance_floor) {
   radiance_floor_ = radiance_floor;
-  const auto seed_word = static_cast<std::uint32_t>(seed ^ (seed >> 32u)), pass_word = static_cast<std::uint32_t>(pass);
+  const std::uint32_t seed_word = folded(seed), pass_word = folded(pass);
   const std::uint32_t shift = f32::random_words(seed_word, pass_word, 0, kDimensionShift).first;
   parallel_for(xi_.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -11,8 +11,6 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kInversePi = std::numbers::inv_pi_v<float>;
 
-float mean(Vec3 v) { return (v.x + v.y + v.z) * (1.0f / 3.0f); }
-
 // A microfacet normal among those that `to_eye` sees, in the frame of the surface normal: a point on the spherical cap
 // that the stretched direction sees.   [Dupuy and Benyoub 2023], after [Heitz 2018]
 Vec3 visible_normal(Vec3 to_eye, float alpha, Vec2 place) {
@@ -38,8 +36,8 @@ Bsdf::Bsdf(const SurfacePoint& point, Vec3 to_eye, float diffuse_share)
   fixed_ =
       f32::fix_direction({point.diffuse_albedo, point.f0, point.f90, point.ggx_alpha}, point.shading_normal, to_eye);
   const float weight = f32::schlick_weight(fixed_.cos_fixed);
-  const float specular = mean(point.f0) * (1 - weight) + point.f90 * weight;
-  const float diffuse = mean(point.diffuse_albedo) * (1 - specular);
+  const float specular = channel_mean(point.f0) * (1 - weight) + point.f90 * weight;
+  const float diffuse = channel_mean(point.diffuse_albedo) * (1 - specular);
   // At least a tenth for each lobe that there is: the other's estimate of its share is rough.
   specular_chance_ = diffuse > 0 ? std::clamp(specular / std::max(specular + diffuse, 1e-12f), 0.1f, 0.9f) : 1.0f;
   if (!(specular > 0)) specular_chance_ = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/fold_seed.h"
 #include "offline/light_sample/light_point.h"
 #include "scene/emissive_triangles.h"
 #include "scene/sky.h"
@@ -16,8 +17,6 @@ constexpr float kFar = 1e30f;
 constexpr float kFinestLevel = -20;          // of textures' detail
 constexpr std::uint32_t kFirstRoulette = 3;  // scatterings before paths are ended at random
 
-float mean(Vec3 v) { return (v.x + v.y + v.z) * (1.0f / 3.0f); }
-bool is_black(Vec3 v) { return !(v.x > 0 || v.y > 0 || v.z > 0); }
 Vec3 point_of(const float v[3]) { return {v[0], v[1], v[2]}; }
 
 // What paths ask of a surface, of one lane.
@@ -58,7 +57,7 @@ Receiver receiver_of(const SurfacePoint& point, Vec3 to_eye) {
   copy(point.shading_normal, receiver.shading_normal);
   copy(point.geometric_normal, receiver.geometric_normal);
   copy(to_eye, receiver.to_eye);
-  receiver.diffuse = mean(point.diffuse_albedo), receiver.f0 = mean(point.f0), receiver.f90 = point.f90;
+  receiver.diffuse = channel_mean(point.diffuse_albedo), receiver.f0 = channel_mean(point.f0), receiver.f90 = point.f90;
   receiver.ggx_alpha = point.ggx_alpha;
   return receiver;
 }
@@ -81,7 +80,7 @@ void PathBatch::render(std::uint32_t left, std::uint32_t top, FilmSample* sample
 void PathBatch::begin(std::uint32_t left, std::uint32_t top) {
   active_.clear();
   const PathSettings& settings = context_.settings;
-  const auto seed = static_cast<std::uint32_t>(settings.seed ^ (settings.seed >> 32u));
+  const std::uint32_t seed = folded(settings.seed);
   for (std::uint32_t i = 0; i < kPaths; ++i) {
     const std::uint32_t x = left + block_x(i), y = top + block_y(i);
     if (x >= settings.width || y >= settings.height) continue;

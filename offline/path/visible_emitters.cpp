@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/fold_seed.h"
 #include "base/parallel.h"
 #include "offline/light_sample/light_point.h"
 #include "offline/path/sample_sequence.h"
@@ -14,8 +15,6 @@ namespace {
 constexpr float kPointsPerPixel = 8;  // that an emitter covers, as seen from its front
 constexpr float kMostPoints = 64;     // of one emitter: larger ones are met by many camera rays
 constexpr std::size_t kChunk = 4096;  // lights per unit of work
-
-bool is_black(Vec3 v) { return !(v.x > 0 || v.y > 0 || v.z > 0); }
 
 }  // namespace
 
@@ -64,7 +63,7 @@ float VisibleEmitters::weight_of_camera_ray(std::uint32_t light, const CameraRay
 void VisibleEmitters::project(std::uint32_t light, std::uint64_t pass, std::vector<Projection>& projections) const {
   const LightRecord& record = lights_.records()[light];
   const float expected = points_per_area_[light] * area_of(record);
-  const auto seed = static_cast<std::uint32_t>(settings_.seed ^ (settings_.seed >> 32u)) + 0x656d6974u;
+  const std::uint32_t seed = folded(settings_.seed) + 0x656d6974u;  // not the paths' numbers
   SampleSequence numbers(seed, light, pass);
   const auto whole = static_cast<std::uint32_t>(expected);
   const std::uint32_t count = whole + (numbers.pair().x < expected - static_cast<float>(whole) ? 1 : 0);

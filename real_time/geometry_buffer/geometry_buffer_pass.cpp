@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "base/fold_seed.h"
 #include "base/parallel.h"
 #include "equations/cpp/float.h"
-#include "real_time/fold_seed.h"
 #include "real_time/geometry_buffer/pixel_block.h"
 
 namespace luciole {

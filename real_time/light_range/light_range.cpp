@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "base/fold_seed.h"
 #include "base/isa.h"
 #include "base/parallel.h"
 #include "equations/cpp/float.h"
-#include "real_time/fold_seed.h"
 
 namespace luciole {
 namespace {

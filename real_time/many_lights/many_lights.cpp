@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/fold_seed.h"
 #include "equations/cpp/float.h"
-#include "real_time/fold_seed.h"
 #include "real_time/in_order.h"
 #include "scene/surface.h"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/fold_seed.h"
 #include "base/parallel.h"
 #include "equations/cpp/float.h"
-#include "real_time/fold_seed.h"
 #include "scene/surface.h"
 
 namespace luciole {

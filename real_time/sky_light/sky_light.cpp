@@ -2,33 +2,25 @@
 #include "real_time/sky_light/sky_light.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "base/fold_seed.h"
 #include "equations/cpp/float.h"
-#include "real_time/fold_seed.h"
+#include "scene/sky.h"
 
 namespace luciole {
 namespace {
 
 constexpr std::uint32_t kDimensionSky = 16;
-constexpr double kPi = std::numbers::pi;
 
 double luminance_of(Vec3 rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z; }
-
-// Solid angle of one texel of a row [sr]: the band between two polar angles, cut into `width` parts.
-double texel_solid_angle(std::uint32_t row, std::uint32_t width, std::uint32_t height) {
-  const double top = kPi * row / height, bottom = kPi * (row + 1) / height;
-  return 2 * kPi / width * (std::cos(top) - std::cos(bottom));
-}
 
 // Running sums of luminance times solid angle over the texels, row by row.
 std::vector<double> cumulated(const Environment& environment) {
   std::vector<double> sums(environment.pixels.size());
   double sum = 0;
   for (std::uint32_t row = 0; row < environment.height; ++row) {
-    const double solid_angle = texel_solid_angle(row, environment.width, environment.height);
+    const double solid_angle = sky_texel_solid_angle(environment, row);
     for (std::uint32_t column = 0; column < environment.width; ++column) {
       const std::size_t i = std::size_t(row) * environment.width + column;
       sum += std::max(luminance_of(environment.radiance * environment.pixels[i]), 0.0) * solid_angle;
@@ -36,19 +28,6 @@ std::vector<double> cumulated(const Environment& environment) {
     }
   }
   return sums;
-}
-
-// A direction of a texel, uniform in its solid angle; the counterpart of sky_radiance's mapping.
-Vec3 direction_in(const Environment& environment, std::size_t texel, double across, double down) {
-  const auto row = static_cast<std::uint32_t>(texel / environment.width);
-  const auto column = static_cast<std::uint32_t>(texel % environment.width);
-  const double azimuth = 2 * kPi * ((column + across) / environment.width - 0.5);
-  const double cos_top = std::cos(kPi * row / environment.height);
-  const double cos_bottom = std::cos(kPi * (row + 1) / environment.height);
-  const double y = cos_top + (cos_bottom - cos_top) * down;
-  const double level = std::sqrt(std::max(1 - y * y, 0.0));
-  return {static_cast<float>(level * std::sin(azimuth)), static_cast<float>(y),
-          static_cast<float>(-level * std::cos(azimuth))};
 }
 
 struct UnitNumbers {
@@ -82,7 +61,7 @@ PrimaryLights sample_sky(const Environment& environment, const SkySampling& samp
     PunctualLight light;
     light.kind = PunctualLight::Kind::directional;
     light.name = "sky";
-    light.direction = -direction_in(environment, texel, u.b, u.c);
+    light.direction = -sky_direction(environment, texel, u.b, u.c);
     // L / pdf / lights with pdf = luminance / total [1/sr].
     light.intensity = radiance * static_cast<float>(total / (luminance_of(radiance) * sampling.lights));
     lights.push_back(light);
