@@ -33,9 +33,7 @@ class PathRun {
   PathRun(const RenderOptions& options, PathPlan plan)
       : options_(options),
         plan_(std::move(plan)),
-        progress_(options.quiet     ? Verbosity::quiet
-                  : options.verbose ? Verbosity::verbose
-                                    : Verbosity::normal),
+        progress_(verbosity_of(options)),
         checkpoint_(plan_.checkpoint, plan_.checkpoint_every),
         file_{Film(plan_.settings.width, plan_.settings.height, plan_.settings.exposure, plan_.goal.samples.first),
               {}} {}

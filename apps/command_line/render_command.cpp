@@ -40,11 +40,7 @@ void add_metadata(Image& image, const RenderPlan& plan, const RenderOptions& opt
 class Run {
  public:
   Run(const RenderOptions& options, RenderPlan plan)
-      : options_(options),
-        plan_(std::move(plan)),
-        progress_(options.quiet     ? Verbosity::quiet
-                  : options.verbose ? Verbosity::verbose
-                                    : Verbosity::normal) {}
+      : options_(options), plan_(std::move(plan)), progress_(verbosity_of(options)) {}
 
   Result<int> operator()() {
     Result<Renderer> renderer = prepare();

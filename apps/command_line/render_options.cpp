@@ -99,6 +99,11 @@ void declare_path_options(CLI::App& command, RenderOptions& options) {
 
 }  // namespace
 
+Verbosity verbosity_of(const RenderOptions& options) {
+  if (options.quiet) return Verbosity::quiet;
+  return options.verbose ? Verbosity::verbose : Verbosity::normal;
+}
+
 void declare_options(CLI::App& command, RenderOptions& options) {
   command.footer(kExamples);
   command

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/command_line/progress.h"
 #include "base/setting_table.h"
 
 namespace luciole {
@@ -38,6 +39,8 @@ struct RenderOptions {
   double checkpoint_every = 60;  // [s]
   bool resume = false;
 };
+
+Verbosity verbosity_of(const RenderOptions& options);
 
 // Declares the options; `options` must outlive the parsing.
 void declare_options(CLI::App& command, RenderOptions& options);
