@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights laid out for weigh_kernel.h, in memory that is kept from group to group.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -9,6 +10,27 @@
 #include "offline/light_sample/weigh_kernel.h"
 
 namespace luciole {
+
+inline constexpr std::size_t kBlockLights = 16;  // rows are whole numbers of these long
+
+using LightRowValues = std::array<float, LightRowsView::kRows>;
+
+// In the order of LightRowsView::Row.
+inline LightRowValues row_values(const LightRecord& light, float xi) {
+  return {light.x,
+          light.y,
+          light.z,
+          light.radius,
+          light.axis_x,
+          light.axis_y,
+          light.axis_z,
+          light.intensity,
+          light.scale,
+          light.offset,
+          light.two_sided,
+          light.lamp,
+          xi};
+}
 
 class LightRows {
  public:
@@ -20,19 +42,7 @@ class LightRows {
     const std::size_t at = lights_.size();
     if (at >= rows_[0].size()) grow();
     lights_.push_back(light);
-    const float values[LightRowsView::kRows] = {record.x,
-                                                record.y,
-                                                record.z,
-                                                record.radius,
-                                                record.axis_x,
-                                                record.axis_y,
-                                                record.axis_z,
-                                                record.intensity,
-                                                record.scale,
-                                                record.offset,
-                                                record.two_sided,
-                                                record.lamp,
-                                                xi};
+    const LightRowValues values = row_values(record, xi);
     for (std::size_t r = 0; r < LightRowsView::kRows; ++r) rows_[r][at] = values[r];
   }
 

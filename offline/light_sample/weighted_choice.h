@@ -29,11 +29,13 @@ void weigh_in_chunks(const LightRows& rows, const Receiver& receiver, const Weig
 // The weight of one light, the same bits as among others.
 //   xi  of the light's range; 0: in reach from everywhere
 inline float weight_of(const LightRecord& light, float xi, const Receiver& receiver, const Weighing& how) {
-  thread_local LightRows one;
-  one.clear();
-  one.add(0, light, xi);
-  alignas(64) float weights[16];
-  LUCIOLE_FOR_ISA(how.isa, weigh_lights(one.view(0, 1), receiver, how.weight, how.radiance_floor, weights));
+  alignas(64) float rows[LightRowsView::kRows][kBlockLights] = {};
+  alignas(64) float weights[kBlockLights];
+  const LightRowValues values = row_values(light, xi);
+  LightRowsView view;
+  view.count = 1;
+  for (std::size_t r = 0; r < values.size(); ++r) rows[r][0] = values[r], view.row[r] = rows[r];
+  LUCIOLE_FOR_ISA(how.isa, weigh_lights(view, receiver, how.weight, how.radiance_floor, weights));
   return weights[0];
 }
 
