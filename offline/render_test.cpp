@@ -82,18 +82,23 @@ TEST(PathTracer, gives_the_closed_form_of_a_room_of_shining_walls) {
   }
 }
 
+Scene white_floor() {
+  Scene scene;
+  Material white;
+  white.base_colour = {1, 1, 1, 1}, white.metallic = 0, white.roughness = 1;
+  white.dielectric_f0 = {0, 0, 0}, white.dielectric_f90 = 0;
+  scene.materials.push_back(white);
+  Mesh floor;
+  floor.positions = {{-50, 0, -50}, {-50, 0, 50}, {50, 0, 50}, {50, 0, -50}};
+  floor.indices = {0, 1, 2, 0, 2, 3};
+  scene.meshes.push_back(floor);
+  return scene;
+}
+
 // A white floor under a constant sky, and under a sky that is an image of the same radiance: both send back the sky.
 TEST(PathTracer, finds_a_constant_sky_and_its_image_alike) {
   for (const bool as_image : {false, true}) {
-    Scene scene;
-    Material white;
-    white.base_colour = {1, 1, 1, 1}, white.metallic = 0, white.roughness = 1;
-    white.dielectric_f0 = {0, 0, 0}, white.dielectric_f90 = 0;
-    scene.materials.push_back(white);
-    Mesh floor;
-    floor.positions = {{-50, 0, -50}, {-50, 0, 50}, {50, 0, 50}, {50, 0, -50}};
-    floor.indices = {0, 1, 2, 0, 2, 3};
-    scene.meshes.push_back(floor);
+    Scene scene = white_floor();
     scene.environment.radiance = {2, 2, 2};
     if (as_image) {
       scene.environment.width = 8, scene.environment.height = 4;
@@ -107,15 +112,7 @@ TEST(PathTracer, finds_a_constant_sky_and_its_image_alike) {
 
 // A sun of irradiance pi over a white floor leaves with radiance cos.
 TEST(PathTracer, finds_a_sun) {
-  Scene scene;
-  Material white;
-  white.base_colour = {1, 1, 1, 1}, white.metallic = 0, white.roughness = 1;
-  white.dielectric_f0 = {0, 0, 0}, white.dielectric_f90 = 0;
-  scene.materials.push_back(white);
-  Mesh floor;
-  floor.positions = {{-50, 0, -50}, {-50, 0, 50}, {50, 0, 50}, {50, 0, -50}};
-  floor.indices = {0, 1, 2, 0, 2, 3};
-  scene.meshes.push_back(floor);
+  Scene scene = white_floor();
   PunctualLight sun;
   sun.kind = PunctualLight::Kind::directional, sun.direction = normalize(Vec3(0.6f, -0.8f, 0));
   sun.intensity = {3.14159265f, 3.14159265f, 3.14159265f};
