@@ -163,7 +163,7 @@ float ListSampler::assumed_pmf(std::uint32_t light, const Receiver& receiver, co
 ClampedSampler::ClampedSampler(const LightSet& lights, const PathSettings& settings,
                                const CullingParameters& parameters)
     : CullingSampler(lights, settings, parameters) {
-  tree_.clamp_all(0.5f, parameters_.radiance_floor);
+  tree_.clamp_all(parameters_.clamp_xi, parameters_.radiance_floor);
 }
 
 float ClampedSampler::acceptance(std::uint32_t light, const LightPlace& place) const {

@@ -12,6 +12,7 @@ struct CullingParameters {
   float exposure = 1;         // E, for the report of the error bound
   float stand_in_weight = 0;  // C: mean total weight, for stratified ranges
   float scene_diagonal = 0;   // [m]
+  float clamp_xi = 0.5f;      // of every light, if ranges are clamped
 };
 
 // Weighs all lights that overlap.
@@ -58,7 +59,6 @@ class ListSampler : public CullingSampler {
 // The rival of [TH16] Figs. 9 and 10: one constant range for all lights, and no division by a probability. Too dark.
 class ClampedSampler final : public CullingSampler {
  public:
-  // As many lights as stochastic ranges accept at a light's average distance: every light as if its xi were 1/2.
   ClampedSampler(const LightSet& lights, const PathSettings& settings, const CullingParameters& parameters);
   void begin_pass(std::uint64_t) override {}
   float acceptance(std::uint32_t light, const LightPlace& place) const override;

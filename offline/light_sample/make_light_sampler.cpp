@@ -20,17 +20,27 @@ namespace {
 constexpr double kAccepted = 16;
 constexpr std::uint32_t kMostProbed = 4096;  // lights that the floor is fitted to
 
-// Unoccluded radiances I s / l^2, counted by size: eighths of octaves.
+// Unoccluded radiances I s / l^2, counted by size.
 struct Histogram {
-  static constexpr int kLowest = -126 * 8, kBuckets = 252 * 8;
+  static constexpr int kPerOctave = 32, kLowest = -126 * kPerOctave, kBuckets = 252 * kPerOctave;
   std::array<std::uint64_t, kBuckets> count{};
   std::array<double, kBuckets> sum{};
 
   void add(float radiance) {
-    const int octave = static_cast<int>(std::floor(8 * std::log2(radiance)));
-    const auto bucket = static_cast<std::size_t>(std::clamp(octave - kLowest, 0, kBuckets - 1));
+    const int size = static_cast<int>(std::floor(kPerOctave * std::log2(radiance)));
+    const auto bucket = static_cast<std::size_t>(std::clamp(size - kLowest, 0, kBuckets - 1));
     ++count[bucket];
     sum[bucket] += radiance;
+  }
+  static double lowest_of(int bucket) { return std::exp2(double(bucket + kLowest) / kPerOctave); }
+  // How many are accepted with a radiance floor: all above it, those below by their share of it.
+  double accepted(double floor) const {
+    double sum_accepted = 0;
+    for (int bucket = 0; bucket < kBuckets; ++bucket) {
+      const auto i = static_cast<std::size_t>(bucket);
+      sum_accepted += lowest_of(bucket) >= floor ? static_cast<double>(count[i]) : sum[i] / floor;
+    }
+    return sum_accepted;
   }
   void add(const Histogram& other) {
     for (std::size_t i = 0; i < kBuckets; ++i) count[i] += other.count[i], sum[i] += other.sum[i];
@@ -93,17 +103,33 @@ float fitted_radiance_floor(const LightSet& lights, const std::vector<Receiver>&
   const std::uint32_t probed = std::min(lights.size(), kMostProbed);
   if (probed == 0 || receivers.empty()) return kAlmostNone;
   const Histogram all = histogram_of(lights, receivers, probed);
-  const double scale = double(lights.size()) / (double(probed) * static_cast<double>(receivers.size()));
-  // From the brightest down: what lies above the floor is accepted, what lies below by its share of the floor.
-  double below = 0;
+  wanted *= double(probed) * static_cast<double>(receivers.size()) / lights.size();
+  double above = 0, below = 0;  // how many lie above the floor, and the radiance of those that lie below
   for (const double sum : all.sum) below += sum;
-  std::uint64_t above = 0;
   for (int bucket = Histogram::kBuckets - 1; bucket >= 0; --bucket) {
-    const double floor = std::exp2((bucket + Histogram::kLowest) / 8.0);
-    above += all.count[static_cast<std::size_t>(bucket)], below -= all.sum[static_cast<std::size_t>(bucket)];
-    if ((static_cast<double>(above) + below / floor) * scale >= wanted) return static_cast<float>(floor);
+    const auto i = static_cast<std::size_t>(bucket);
+    const double floor = Histogram::lowest_of(bucket);
+    above += static_cast<double>(all.count[i]), below -= all.sum[i];
+    if (above + below / floor >= wanted) return static_cast<float>(floor);
   }
   return kAlmostNone;  // fewer lights than are wanted: all of them, always
+}
+
+float fitted_clamp(const LightSet& lights, const std::vector<Receiver>& receivers, float radiance_floor) {
+  const std::uint32_t probed = std::min(lights.size(), kMostProbed);
+  if (probed == 0 || receivers.empty()) return 0.5f;
+  const Histogram all = histogram_of(lights, receivers, probed);
+  double left = all.accepted(radiance_floor);
+  for (int bucket = Histogram::kBuckets - 1; bucket >= 0; --bucket) {
+    const auto count = static_cast<double>(all.count[static_cast<std::size_t>(bucket)]);
+    if (count >= left && count > 0) {
+      // Within a bucket as if its lights were spread evenly.
+      const double threshold = Histogram::lowest_of(bucket) * std::exp2((1 - left / count) / Histogram::kPerOctave);
+      return static_cast<float>(std::min(threshold / radiance_floor, 0.999999));
+    }
+    left -= count;
+  }
+  return 1e-9f;  // every light, from everywhere
 }
 
 std::unique_ptr<LightSampler> make_light_sampler(const SamplerInputs& in) {
@@ -126,7 +152,10 @@ std::unique_ptr<LightSampler> make_light_sampler(const SamplerInputs& in) {
   parameters.radiance_floor = in.settings.error_bound > 0
                                   ? 2 * std::numbers::pi_v<float> * in.settings.error_bound / in.settings.exposure
                                   : fitted_radiance_floor(in.lights, in.receivers, kAccepted);
-  if (in.settings.lights == LightChoice::clamped) return culling<ClampedSampler>(in, parameters);
+  if (in.settings.lights == LightChoice::clamped) {
+    parameters.clamp_xi = fitted_clamp(in.lights, in.receivers, parameters.radiance_floor);
+    return culling<ClampedSampler>(in, parameters);
+  }
   if (in.settings.resampling == Resampling::list) return culling<ListSampler>(in, parameters);
   return culling<CullingSampler>(in, parameters);
 }

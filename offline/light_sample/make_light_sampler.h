@@ -20,6 +20,9 @@ struct SamplerInputs {
 // lights and scene must outlive the sampler.
 std::unique_ptr<LightSampler> make_light_sampler(const SamplerInputs& inputs);
 
+// The constant xi with which as many lights are accepted at a receiver, on average, as with random ones: equal cost.
+float fitted_clamp(const LightSet& lights, const std::vector<Receiver>& receivers, float radiance_floor);
+
 // The radiance floor that lets `wanted` lights be accepted at a receiver, on average.   [W/(m^2 sr)]
 float fitted_radiance_floor(const LightSet& lights, const std::vector<Receiver>& receivers, double wanted);
 
