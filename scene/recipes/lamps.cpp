@@ -85,6 +85,12 @@ Scene make_lamps(const Values& values) {
   const float facet_area = 0.8660254f * radius * radius;  // an equilateral triangle of side sqrt(2) radius
   Scene scene;
   add_colonnade(scene, size);
+  if (const auto alpha = static_cast<float>(values.at("glossy")); alpha > 0) {
+    for (Material& material : scene.materials) {
+      const Vec4 colour = material.base_colour;
+      material = metal_material(material.name, {colour.x, colour.y, colour.z}, alpha);
+    }
+  }
   const auto first_lamp = static_cast<std::uint32_t>(scene.materials.size());
   add_lamp_materials(scene, kTotalFlux / (kPi * facet_area * static_cast<float>(triangles)),
                      values.at("textured") == 1);
@@ -112,6 +118,7 @@ Recipe lamps_recipe() {
            "a hall of columns hung with lamps: many emissive triangles",
            {{"count", "number of emissive triangles", 100000, 1, 1048576, true},
             {"textured", "1: the lamps have striped shades (an emissive texture)", 0, 0, 1, true},
+            {"glossy", "GGX alpha of all surfaces, which then are metals; 0: floor, ball and jar shine", 0, 0, 1},
             {"matte", "1: no surface reflects, also floor, ball and jar scatter evenly, as pbrt can show it", 0, 0, 1,
              true},
             {"seed", "another seed, another arrangement", 1, 0, 4294967295.0, true}}},

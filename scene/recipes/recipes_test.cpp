@@ -27,7 +27,8 @@ const std::vector<Sample>& small_samples() {
                                               {"ring", {}},
                                               {"cornell", {{"glossy", "0.1"}, {"panel", "5"}}},
                                               {"lights", {{"count", "333"}}},
-                                              {"lamps", {{"count", "1001"}, {"textured", "1"}}}};
+                                              {"lamps", {{"count", "1001"}, {"textured", "1"}}},
+                                              {"lamps", {{"count", "80"}, {"glossy", "0.2"}}}};
   return samples;
 }
 
