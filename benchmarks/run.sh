@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Remakes docs/results: benchmarks/run.sh [culling|speed|kernel|scaling|steadiness|filter|memory|light_choice|equal_time
-# ...], all without arguments (equal_time alone takes an hour and a half; LUCIOLE_EQUAL_TIME, LUCIOLE_REFERENCE_TIME in
-# seconds and LUCIOLE_EQUAL_SIZE shorten it). Builds into $BUILD (default: build). Shots of files take part where $LUCIOLE_SCENES names their folder.
+# Remakes docs/results: benchmarks/run.sh [culling|speed|kernel|scaling|steadiness|filter|memory|light_choice|
+# ray_rate|equal_time|pbrt ...], all without arguments (equal_time alone takes an hour and a half; pbrt only where $PBRT
+# names that program). Builds into $BUILD (default: build). Shots of files take part where $LUCIOLE_SCENES names their folder.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${BUILD:-build} results=docs/results
@@ -150,19 +150,82 @@ filter() {
   done
 }
 
-# Seconds per choice and per reference, and the picture's size; the scenes are the largest part of the time.
+# Every choice of lights for 30 s on every scene, and for two minutes on one: about an hour and a half.
 equal_time() {
-  local scenes=('recipe:lamps?count=5000' 'recipe:lamps?count=60000' 'recipe:lamps?count=1000000' 'recipe:ring')
+  local scenes=('recipe:lamps?count=5000' 'recipe:lamps?count=1000000' 'recipe:lamps?count=60000&glossy=0.15')
   has_scenes && scenes+=(lost-empire sports-car)
-  "$programs/equal_time_benchmark" "${LUCIOLE_EQUAL_TIME:-30}" "${LUCIOLE_REFERENCE_TIME:-300}" \
-    "${LUCIOLE_EQUAL_SIZE:-1280x720}" "${scenes[@]}"
+  cat << 'TEXT'
+# Path tracing in equal time
+
+TEXT
+  printf 'Remake: `benchmarks/run.sh equal_time`. Processor: %s.\n\n' "$processor"
+  cat << 'TEXT'
+1280x720; every choice of lights gets 30 s on all cores, in whole samples of the picture; its relMSE is what was measured
+times the time taken over the time given. The reference is the mean of two renders of other random numbers, and the
+variance that their difference tells is taken off: errors are against the truth, not against the reference's noise. The
+best 95 % leave out pixels that show lamps, whose error no choice of lights changes. Clamped ranges are biased: their
+error does not fall as time passes.
+TEXT
+  "$programs/equal_time_benchmark" 30,120 240 1280x720 'recipe:lamps?count=60000'
+  "$programs/equal_time_benchmark" 30 120 1280x720 "${scenes[@]}"
+}
+
+ray_rate() {
+  local shots
+  read -ra shots <<< "$(main_shots)"
+  "$programs/ray_rate_benchmark" 'recipe:lamps?count=60000' "${shots[@]}"
+}
+
+# Against pbrt-v4 where $PBRT names its program: the same scene, which `luciole make` writes for it.
+pbrt() {
+  local count bounces seconds samples tree_error pbrt_error
+  printf '# Beside pbrt-v4\n\nRemake: `PBRT=path/to/pbrt benchmarks/run.sh pbrt`. Processor: %s.\n\n' "$processor"
+  cat << 'TEXT'
+`luciole make lamps count=N matte=1 --bounces B -o lamps.pbrt` is what pbrt renders: integrator `path`, light sampler
+`bvh`, box filter, 640x360. Luciole gets the seconds that pbrt took (without loading), on the same cores in the same run. Reference:
+Luciole, four times as long, with other random numbers. The last two columns compare pbrt's light tree with ours (`--lights tree`)
+at as many samples: the rival that the other pages measure against is a fair one where they agree.
+
+| lamps | bounces | s | samples, pbrt | samples, Luciole | relMSE, pbrt | relMSE, Luciole | ratio | mean, pbrt to Luciole | tree's relMSE at equal samples | pbrt's to our tree's |
+| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |
+TEXT
+  for count in 5000 60000; do
+    for bounces in 1 3; do
+      samples=$((bounces == 1 ? 64 : 32))
+      pbrt_row "$count" "$bounces" "$samples"
+    done
+  done
+}
+
+pbrt_row() {
+  local count=$1 bounces=$2 samples=$3 seconds common key
+  "$build/luciole" make lamps "count=$count" matte=1 --size 640x360 --bounces "$bounces" --samples "$samples" \
+    -o "$work/lamps.pbrt" > /dev/null
+  # Its last progress line ends in the seconds of rendering.
+  seconds=$(cd "$work" && "$PBRT" --seed 7 lamps.pbrt 2> /dev/null | tr '\r' '\n' | sed -n 's/.*(\([0-9.]*\)s).*/\1/p' | tail -n 1)
+  common=("recipe:lamps?count=$count&matte=1" --method path --bounces "$bounces" --size 640x360 --pixel-filter box --quiet)
+  "$build/luciole" render "${common[@]}" --time "$seconds" -o "$work/ours.exr" --statistics "$work/ours.json"
+  "$build/luciole" render "${common[@]}" --samples "$samples" --lights tree -o "$work/tree.exr"
+  "$build/luciole" render "${common[@]}" --time "$(awk -v s="$seconds" 'BEGIN { print 4 * s }')" --seed 99 -o "$work/reference.exr"
+  for key in lamps ours tree; do
+    "$build/luciole" compare "$work/$key.exr" "$work/reference.exr" > "$work/$key.txt"
+  done
+  awk -v count="$count" -v bounces="$bounces" -v seconds="$seconds" -v samples="$samples" \
+    -v ours_samples="$(value "$work/ours.json" samples_per_pixel)" '
+    FNR == 1 { ++file }
+    $1 == "relmse" { error[file] = $2 }
+    $1 == "mean_ratio" && file == 1 { mean = $2 }
+    END { printf "| %d | %d | %.1f | %d | %d | %.4g | %.4g | %.1f | %.4f | %.4g | %.2f |\n", count, bounces, seconds, samples,
+            ours_samples, error[1], error[2], error[1] / error[2], mean, error[3], error[1] / error[3] }' \
+    "$work/lamps.txt" "$work/ours.txt" "$work/tree.txt"
 }
 
 pages=("$@")
-((${#pages[@]})) || pages=(speed memory kernel filter scaling steadiness culling light_choice equal_time)
+((${#pages[@]})) || pages=(speed memory kernel filter scaling steadiness culling light_choice ray_rate equal_time)
+[[ -n ${PBRT:-} ]] && ((! $#)) && pages+=(pbrt)
 for name in "${pages[@]}"; do
   case $name in
-    speed | memory | kernel | filter | equal_time) page "$name" "$name" ;;
+    speed | memory | kernel | filter | ray_rate | equal_time | pbrt) page "$name" "$name" ;;
     scaling | steadiness | culling | light_choice) page "$name" "$programs/${name}_benchmark" ;;
     *)
       echo "run.sh: no page '$name'" >&2
