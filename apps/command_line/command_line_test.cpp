@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the program as a user does: what it writes, what it says, and what it leaves behind.
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "apps/command_line/run_program.h"
 #include "image/exr.h"
@@ -160,10 +159,8 @@ TEST_F(CommandLine, a_matte_recipe_is_written_for_pbrt) {
 }
 
 TEST_F(CommandLine, interrupted_accumulation_writes_what_is_complete) {
-  const pid_t child = start(small_render({"-o", "out/a.exr", "--accumulate", "1000000"}));
-  std::this_thread::sleep_for(std::chrono::seconds(2));
-  kill(child, SIGINT);
-  const Outcome outcome = finish(child);
+  const Outcome outcome =
+      interrupt(start(small_render({"-o", "out/a.exr", "--accumulate", "1000000", "--verbose"})), "ms frame");
   EXPECT_EQ(outcome.exit_code, 130) << outcome.complained;
   const Result<Image> picture = read_exr(folder_ / "out/a.exr");
   ASSERT_TRUE(picture.has_value()) << outcome.complained;
@@ -172,11 +169,10 @@ TEST_F(CommandLine, interrupted_accumulation_writes_what_is_complete) {
 }
 
 TEST_F(CommandLine, interrupted_in_its_only_frame_writes_nothing) {
-  const pid_t child = start({"render", "recipe:cornell", "--size", "1024x1024", "--vpls", "65536", "--culling", "none",
-                             "--ranges", "infinite", "--interleave", "1", "-o", "out/a.exr"});
-  std::this_thread::sleep_for(std::chrono::seconds(2));
-  kill(child, SIGINT);
-  const Outcome outcome = finish(child);
+  const Outcome outcome =
+      interrupt(start({"render", "recipe:cornell", "--size", "1024x1024", "--vpls", "65536", "--culling", "none",
+                       "--ranges", "infinite", "--interleave", "1", "-o", "out/a.exr"}),
+                "");
   EXPECT_EQ(outcome.exit_code, 130) << outcome.complained;
   EXPECT_EQ(std::count(outcome.complained.begin(), outcome.complained.end(), '\n'), 1) << outcome.complained;
   EXPECT_EQ(files_in_out(), 0u);

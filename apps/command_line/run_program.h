@@ -8,10 +8,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace luciole {
@@ -60,6 +62,21 @@ class CommandLine : public testing::Test {
     int status = 0;
     waitpid(child, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder_ / "said"), content(folder_ / "complained")};
+  }
+
+  // Presses Ctrl-C as soon as the program has complained of `word` ("": as soon as it would listen).
+  Outcome interrupt(pid_t child, const std::string& word) {
+    const auto listens = [&] {
+      const std::string status = content("/proc/" + std::to_string(child) + "/status");
+      const std::size_t at = status.find("SigCgt:");
+      return at != std::string::npos && (std::stoull(status.substr(at + 7), nullptr, 16) >> (SIGINT - 1) & 1u) != 0;
+    };
+    for (int tries = 0; tries < 6000; ++tries) {  // a minute
+      if (listens() && content(folder_ / "complained").find(word) != std::string::npos) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    kill(child, SIGINT);
+    return finish(child);
   }
 
   Outcome run(std::vector<std::string> words) { return finish(start(std::move(words))); }
