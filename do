@@ -79,7 +79,7 @@ build() {
 run_tests() {
   local folder=$1 log=$1/tests.log status=0
   shift
-  ctest --test-dir "$folder" --output-on-failure --no-tests=error "$@" > "$log" 2>&1 || status=$?
+  ctest --test-dir "$folder" --parallel "$(nproc)" --output-on-failure --no-tests=error "$@" > "$log" 2>&1 || status=$?
   if ((status)); then cat "$log"; else tail -n 12 "$log"; fi
   return $status
 }

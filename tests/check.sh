@@ -31,7 +31,8 @@ part() {
 unit_tests() {
   local folder=$1
   cmake --build "$folder" > "$folder/build.log" 2>&1 || { tail -n 60 "$folder/build.log"; return 1; }
-  "${steady[@]}" ctest --test-dir "$folder" -L unit --no-tests=error --output-on-failure > "$folder/tests.log" 2>&1 ||
+  "${steady[@]}" ctest --test-dir "$folder" -L unit --parallel "$(nproc)" --no-tests=error --output-on-failure \
+    > "$folder/tests.log" 2>&1 ||
     { tail -n 200 "$folder/tests.log"; return 1; }
   tail -n 6 "$folder/tests.log"
 }
