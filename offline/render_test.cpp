@@ -261,11 +261,11 @@ Agreement compare(const Runs& a, const Runs& b) {
 
 constexpr std::uint32_t kRuns = 48, kSamplesPerRun = 12;
 
-// A right sampler's differences are close to normal (Student's t of twice 47 degrees of freedom: mean square 1.02, and
-// their number is hundreds), so the mean square says more than the largest.
-bool agree(const Agreement& a) {
-  const double spread = std::sqrt(2 / a.values) * 3;  // the three channels of a block go together
-  return a.mean_square < 1.03 + 3.3 * spread && a.largest < 6;
+// A right sampler's differences are close to normal (Student's t, with a mean square a little above one), and their
+// number is hundreds, so the mean square says more than the largest.
+bool agree(const Agreement& a, std::uint32_t runs = kRuns) {
+  const double freedom = 2 * (runs - 1.0), spread = std::sqrt(2 / a.values) * 3;  // a block's channels go together
+  return a.mean_square < freedom / (freedom - 2) + 0.01 + 3.3 * spread && a.largest < 6;
 }
 
 class SamplersAgree : public testing::TestWithParam<std::string> {};
@@ -297,6 +297,24 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SamplersAgree,
                          testing::Values("recipe:lamps?count=1", "recipe:lamps?count=200",
                                          "recipe:lamps?count=1000&textured=1", "recipe:lights?count=500",
                                          "recipe:cornell?glossy=0.1"));
+
+// As many lights as weighing them all for each choice allows.
+TEST(PathTracer, samplers_agree_among_sixty_thousand_lights) {
+  constexpr std::uint32_t kFewRuns = 24;
+  const std::shared_ptr<const Scene> scene = recipe("recipe:lamps?count=60000");
+  const auto runs_of = [&](LightChoice lights) {
+    PathSettings settings = small(1, lights);
+    settings.width = 24, settings.height = 12;
+    return independent_runs(scene, settings, kFewRuns, kSamplesPerRun);
+  };
+  const Runs truth = runs_of(LightChoice::exhaustive);
+  for (const LightChoice lights : {LightChoice::culling, LightChoice::tree}) {
+    const Agreement found = compare(runs_of(lights), truth);
+    EXPECT_TRUE(agree(found, kFewRuns)) << name_of(lights) << ": mean square " << found.mean_square << ", largest "
+                                        << found.largest;
+  }
+  EXPECT_FALSE(agree(compare(runs_of(LightChoice::clamped), truth), kFewRuns));
+}
 
 TEST(PathTracer, clamped_ranges_are_told_apart) {
   const std::shared_ptr<const Scene> scene = recipe("recipe:lamps?count=200");
