@@ -70,7 +70,7 @@ Lists oracle(const PreparedStage& stage) {
           LUCIOLE_FOR_ISA(settings.isa, accepted_lanes(group, list, lanes.data()));
           for (std::uint32_t i = 0; i < count; ++i) {
             if (lanes[i] == 0) continue;
-            wanted[group.half][i] = 1;
+            wanted[group.part][i] = 1;
             in_groups += kGroupPixels;
           }
         }

@@ -34,7 +34,7 @@ ListedGroups<Emitter> list(const PreparedStage& stage, const ReachingLights<Emit
     for (std::uint32_t g = 0; g < tile.group_count; ++g) {
       const PixelGroup& group = tile.groups[g];
       const std::uint32_t length =
-          LUCIOLE_FOR_ISA(stage.settings.isa, cull_group(halves[group.half].lists(), group, kept.data()));
+          LUCIOLE_FOR_ISA(stage.settings.isa, cull_group(halves[group.part].lists(), group, kept.data()));
       work.groups.push_back(group);
       work.lists.emplace_back(kept.begin(), kept.begin() + length);
       for (std::uint32_t& index : work.lists.back()) index += begin;

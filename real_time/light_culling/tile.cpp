@@ -6,33 +6,6 @@
 namespace luciole {
 namespace {
 
-struct TilePixel {
-  std::uint32_t pixel;
-  Vec3 view;  // right, up, forward [m]
-};
-
-struct PixelList {
-  TilePixel entries[kTilePixels];
-  std::uint32_t count = 0;
-};
-
-// The tile's pixels in the order of 4x4 groups, so that sixteen neighbours in the list are neighbours on the screen.
-void list_pixels(const GeometryBuffer& geometry, const TileAddress& at, PixelList& list) {
-  const std::uint32_t n = at.interleave;
-  const Vec3 eye = geometry.camera.eye, right = geometry.camera.right, up = geometry.camera.up;
-  list.count = 0;
-  for (std::uint32_t i = 0; i < kTilePixels; ++i) {
-    const std::uint32_t tile_x = (i / 16 % 4) * 4 + i % 4, tile_y = (i / 64) * 4 + i / 4 % 4;
-    const std::uint32_t x = (at.bx * kTileSide + tile_x) * n + at.sx, y = (at.by * kTileSide + tile_y) * n + at.sy;
-    if (x >= geometry.width || y >= geometry.height) continue;
-    const std::uint32_t pixel = y * geometry.width + x;
-    const float depth = geometry.depth[pixel];
-    if (depth == kNoSurface) continue;
-    const Vec3 p = Vec3(geometry.position[0][pixel], geometry.position[1][pixel], geometry.position[2][pixel]) - eye;
-    list.entries[list.count++] = {pixel, Vec3(dot(p, right), dot(p, up), depth)};
-  }
-}
-
 // Slopes are widened by a few units in the last place: they bound rounded quotients.
 void grow(TileHalf& half, Vec3 view) {
   const float x = view.x / view.z, y = view.y / view.z;
@@ -52,10 +25,10 @@ void copy_plane3(float (&to)[3][kGroupPixels], const Plane3& from, const std::ui
     for (int lane = 0; lane < kGroupPixels; ++lane) to[axis][lane] = from[axis][pixel[lane]];
 }
 
-void fill_group(const GeometryBuffer& geometry, const TilePixel* pixels, std::uint32_t count, std::uint32_t half,
+void fill_group(const GeometryBuffer& geometry, const TilePixel* pixels, std::uint32_t count, std::uint32_t part,
                 PixelGroup& group) {
   group.count = count;
-  group.half = half;
+  group.part = part;
   Vec3 low = pixels[0].view, high = low;
   for (std::uint32_t lane = 0; lane < kGroupPixels; ++lane) {
     const TilePixel& source = pixels[lane < count ? lane : 0];
@@ -79,15 +52,33 @@ void fill_group(const GeometryBuffer& geometry, const TilePixel* pixels, std::ui
   }
 }
 
-void append_groups(const GeometryBuffer& geometry, const PixelList& list, std::uint32_t half, ScreenTile& tile) {
-  for (std::uint32_t first = 0; first < list.count; first += kGroupPixels) {
-    if (tile.groups.size() <= tile.group_count) tile.groups.emplace_back();
-    fill_group(geometry, list.entries + first, std::min<std::uint32_t>(kGroupPixels, list.count - first), half,
-               tile.groups[tile.group_count++]);
+}  // namespace
+
+// The tile's pixels in the order of 4x4 groups, so that sixteen neighbours in the list are neighbours on the screen.
+void list_pixels(const GeometryBuffer& geometry, const TileAddress& at, PixelList& list) {
+  const std::uint32_t n = at.interleave;
+  const Vec3 eye = geometry.camera.eye, right = geometry.camera.right, up = geometry.camera.up;
+  list.count = 0;
+  for (std::uint32_t i = 0; i < kTilePixels; ++i) {
+    const std::uint32_t tile_x = (i / 16 % 4) * 4 + i % 4, tile_y = (i / 64) * 4 + i / 4 % 4;
+    const std::uint32_t x = (at.bx * kTileSide + tile_x) * n + at.sx, y = (at.by * kTileSide + tile_y) * n + at.sy;
+    if (x >= geometry.width || y >= geometry.height) continue;
+    const std::uint32_t pixel = y * geometry.width + x;
+    const float depth = geometry.depth[pixel];
+    if (depth == kNoSurface) continue;
+    const Vec3 p = Vec3(geometry.position[0][pixel], geometry.position[1][pixel], geometry.position[2][pixel]) - eye;
+    list.entries[list.count++] = {pixel, i / 16, Vec3(dot(p, right), dot(p, up), depth)};
   }
 }
 
-}  // namespace
+void append_groups(const GeometryBuffer& geometry, const TilePixel* pixels, std::uint32_t count, std::uint32_t part,
+                   ScreenTile& tile) {
+  for (std::uint32_t first = 0; first < count; first += kGroupPixels) {
+    if (tile.groups.size() <= tile.group_count) tile.groups.emplace_back();
+    fill_group(geometry, pixels + first, std::min<std::uint32_t>(kGroupPixels, count - first), part,
+               tile.groups[tile.group_count++]);
+  }
+}
 
 void read_tile(const GeometryBuffer& geometry, const TileAddress& address, ScreenTile& tile) {
   PixelList all, halves[2];
@@ -105,8 +96,8 @@ void read_tile(const GeometryBuffer& geometry, const TileAddress& address, Scree
     halves[half].entries[halves[half].count++] = all.entries[i];
     grow(tile.half[half], all.entries[i].view);
   }
-  append_groups(geometry, halves[0], 0, tile);
-  append_groups(geometry, halves[1], 1, tile);
+  for (std::uint32_t half = 0; half < 2; ++half)
+    append_groups(geometry, halves[half].entries, halves[half].count, half, tile);
 }
 
 }  // namespace luciole

@@ -27,11 +27,30 @@ struct ScreenTile {
   std::uint32_t group_count = 0;
 };
 
+struct TilePixel {
+  std::uint32_t pixel;  // row-major index in the screen
+  std::uint32_t cell;   // of 4x4 pixels, row-major in the tile: 0 ... 15
+  Vec3 view;            // right, up, forward [m]
+};
+
+// The pixels of a tile that show a surface, cell by cell.
+struct PixelList {
+  TilePixel entries[kTilePixels];
+  std::uint32_t count = 0;
+};
+
 // Which pixels a tile has: block (bx, by) of 16n x 16n pixels, sub-region (sx, sy) in [0, n)^2.
 struct TileAddress {
   std::uint32_t interleave;  // n
   std::uint32_t bx, by, sx, sy;
 };
+
+void list_pixels(const GeometryBuffer& geometry, const TileAddress& address, PixelList& list);
+
+// Adds `count` pixels to the tile as groups of 16.
+//   part  PixelGroup::part
+void append_groups(const GeometryBuffer& geometry, const TilePixel* pixels, std::uint32_t count, std::uint32_t part,
+                   ScreenTile& tile);
 
 // Reads a tile's pixels; those without a surface are left out. Reuses the memory of `tile`.
 void read_tile(const GeometryBuffer& geometry, const TileAddress& address, ScreenTile& tile);

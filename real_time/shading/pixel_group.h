@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pixels as the shading kernels see them: groups of 16, structure of arrays. A group holds neighbouring pixels of one
-// sub-region tile, all of one depth half; lanes without a pixel repeat the group's first one and are never written
+// sub-region tile, all of one part of it; lanes without a pixel repeat the group's first one and are never written
 // back.
 #pragma once
 #include <cstdint>
@@ -20,7 +20,7 @@ struct alignas(64) PixelGroup {
   float view_low[3], view_high[3];    // box round the pixels in view space (right, up, forward) [m]
   std::uint32_t pixel[kGroupPixels];  // row-major index in the screen
   std::uint32_t count;                // pixels in use
-  std::uint32_t half;                 // depth half that it belongs to: 0 near, 1 far
+  std::uint32_t part;  // what it belongs to: depth half 0 near, 1 far
 };
 
 // What a list of lights adds to a group: demodulated light of one kind of lobe (see Radiance), and counts.

@@ -22,11 +22,35 @@ void clear(Radiance& radiance, std::size_t pixels) {
   }
 }
 
-void add(LightCounts& to, const LightCounts& from) {
+void add_counts(LightCounts& to, const LightCounts& from) {
   to.listed += from.listed, to.evaluated += from.evaluated, to.accepted += from.accepted;
 }
 
+// make_worker() gives each range of blocks a worker of its own; its memory is reused from block to block.
+template <class MakeWorker>
+void run_blocks(const ShadingInputs& inputs, ShadingOutputs& out, const MakeWorker& make_worker) {
+  const std::uint32_t side = kTileSide * inputs.settings.interleave;
+  const std::uint32_t blocks_x = (inputs.geometry.width + side - 1) / side;
+  const std::uint32_t blocks_y = (inputs.geometry.height + side - 1) / side;
+  std::mutex merging;  // sums of integers: the order of merging does not show
+  parallel_for(std::size_t(blocks_x) * blocks_y, 1, [&](std::size_t begin, std::size_t end) {
+    auto worker = make_worker();
+    for (std::size_t block = begin; block < end && !stop_requested(); ++block) {
+      worker.run_block(static_cast<std::uint32_t>(block % blocks_x), static_cast<std::uint32_t>(block / blocks_x));
+    }
+    const std::scoped_lock lock(merging);
+    out.add(worker.counts);
+  });
+}
+
 }  // namespace
+
+void ShadingCounts::add(const ShadingCounts& more) {
+  add_counts(diffuse, more.diffuse), add_counts(glossy, more.glossy), add_counts(many, more.many);
+  list_lengths.insert(list_lengths.end(), more.list_lengths.begin(), more.list_lengths.end());
+  pixels += more.pixels;
+  culling_seconds += more.culling_seconds, shading_seconds += more.shading_seconds;
+}
 
 void Radiance::resize(std::size_t pixels) {
   for (Plane3* planes : {&diffuse, &specular})
@@ -43,21 +67,7 @@ ShadingOutputs shade(const ShadingInputs& inputs) {
     out.lights_listed.assign(pixels, 0.0f);
     out.lights_false.assign(pixels, 0.0f);
   }
-  const std::uint32_t side = kTileSide * inputs.settings.interleave;
-  const std::uint32_t blocks_x = (inputs.geometry.width + side - 1) / side;
-  const std::uint32_t blocks_y = (inputs.geometry.height + side - 1) / side;
-  std::mutex merging;  // sums of integers: the order of merging does not show
-  parallel_for(std::size_t(blocks_x) * blocks_y, 1, [&](std::size_t begin, std::size_t end) {
-    TileWorker worker(inputs, out);
-    for (std::size_t block = begin; block < end && !stop_requested(); ++block) {
-      worker.run_block(static_cast<std::uint32_t>(block % blocks_x), static_cast<std::uint32_t>(block / blocks_x));
-    }
-    const std::scoped_lock lock(merging);
-    add(out.diffuse, worker.diffuse), add(out.glossy, worker.glossy), add(out.many, worker.many);
-    out.pixels += worker.pixels;
-    out.culling_seconds += worker.culling_seconds, out.shading_seconds += worker.shading_seconds;
-    out.list_lengths.insert(out.list_lengths.end(), worker.list_lengths.begin(), worker.list_lengths.end());
-  });
+  run_blocks(inputs, out, [&] { return TileWorker(inputs, out); });
   return out;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pass: geometry buffer x reaching lights -> noisy radiance. Culling and shading go together, tile by tile, so that a
-// light list lives only as long as its tile is in the cache ([TH17] §6).
+// Pass: geometry buffer x reaching lights -> noisy radiance. Tiled culling and shading go together, tile by tile, so
+// that a light list lives only as long as its tile is in the cache ([TH17] §6).
 #pragma once
 #include <cstdint>
 
@@ -27,18 +27,23 @@ struct ShadingInputs {
 
 // Counts of one kind of lobe. A list belongs to one depth half of one tile.
 struct LightCounts {
-  std::uint64_t listed = 0;     // light x pixel pairs in the lists of the pixels' depth halves
-  std::uint64_t evaluated = 0;  // of those, pairs that the group test left to the shading kernel (16 lanes a group)
+  std::uint64_t listed = 0;     // light x pixel pairs that culling left
+  std::uint64_t evaluated = 0;  // pairs that went through the shading kernel, 16 lanes a group
   std::uint64_t accepted = 0;   // p > xi
 };
 
-struct ShadingOutputs {
-  ShadedRadiance radiance;
+struct ShadingCounts {
   LightCounts diffuse, glossy, many;
   std::vector<std::uint32_t> list_lengths;          // all lists, diffuse and glossy and many, unordered
   std::uint64_t pixels = 0;                         // with a surface
-  double culling_seconds = 0, shading_seconds = 0;  // summed over threads
-  Plane lights_listed, lights_false;                // per pixel, all kinds; empty unless asked for
+  double culling_seconds = 0, shading_seconds = 0;  // summed over threads; reading pixels counts as shading
+
+  void add(const ShadingCounts& more);
+};
+
+struct ShadingOutputs : ShadingCounts {
+  ShadedRadiance radiance;
+  Plane lights_listed, lights_false;  // per pixel, all kinds; empty unless asked for
 };
 
 ShadingOutputs shade(const ShadingInputs& inputs);

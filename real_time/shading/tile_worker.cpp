@@ -5,8 +5,6 @@
 #include <chrono>
 #include <numeric>
 
-#include "real_time/shading/light_shadows.h"
-
 namespace luciole {
 namespace {
 
@@ -63,7 +61,7 @@ void TileWorker::list_lights_of_groups(std::uint32_t subset_lights) {
   group_begin_.assign(1, 0u);
   for (std::uint32_t g = 0; g < tile_.group_count; ++g) {
     const PixelGroup& group = tile_.groups[g];
-    const TouchingLights& lights = halves_[group.half].lists();
+    const TouchingLights& lights = halves_[group.part].lists();
     const std::uint32_t begin = group_begin_.back();
     if (group_lists_.size() < begin + subset_lights + kSlack) {
       group_lists_.resize(std::max(2 * group_lists_.size(), std::size_t(begin) + subset_lights + kSlack));
@@ -80,69 +78,26 @@ void TileWorker::list_lights_of_groups(std::uint32_t subset_lights) {
   }
 }
 
-void TileWorker::find_shadows(const PixelGroup& group, LightList<ManyEmitter>& list) {
-  if (inputs_.shadows == nullptr) return;
-  visible_.resize(list.count);
-  LUCIOLE_FOR_ISA(inputs_.settings.isa, accepted_lanes(group, list, visible_.data()));
-  for (std::uint32_t i = 0; i < list.count; ++i) {
-    const float* light = list.emitters[list.index[i]].position;
-    if (visible_[i] != 0) {
-      visible_[i] = unoccluded_lanes(*inputs_.shadows, group, Vec3(light[0], light[1], light[2]), visible_[i]);
-    }
-  }
-  list.visible = visible_.data();
-}
-
-void TileWorker::add_to_pixels(const PixelGroup& group, Radiance& radiance) const {
-  const float weight = static_cast<float>(inputs_.settings.interleave * inputs_.settings.interleave);
-  for (std::size_t c = 0; c < 3; ++c) {
-    float* diffuse_plane = radiance.diffuse[c].data();
-    float* specular_plane = radiance.specular[c].data();
-    for (std::uint32_t lane = 0; lane < group.count; ++lane) {
-      diffuse_plane[group.pixel[lane]] += sum_.diffuse[c][lane] * weight;
-      specular_plane[group.pixel[lane]] += sum_.specular[c][lane] * weight;
-    }
-  }
-}
-
-void TileWorker::count(const PixelGroup& group, std::uint32_t listed, LightCounts& counts) {
-  for (std::uint32_t lane = 0; lane < group.count; ++lane) {
-    const std::uint32_t pixel = group.pixel[lane];
-    const auto accepted = static_cast<std::uint64_t>(sum_.accepted[lane]);
-    counts.accepted += accepted;
-    counts.listed += listed;
-    if (inputs_.count_per_pixel) {
-      outputs_.lights_listed[pixel] += static_cast<float>(listed);
-      outputs_.lights_false[pixel] += static_cast<float>(listed - accepted);
-    }
-  }
-}
-
 template <class Emitter>
-void TileWorker::add_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset, LightCounts& counts,
+void TileWorker::add_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset, LightCounts& added,
                             Radiance& radiance, Radiance* part) {
   if (lights.emitters.empty()) return;
   const auto start = std::chrono::steady_clock::now();
   list_lights(lights, subset);
   list_lights_of_groups(lights.count[subset]);
   for (int half = 0; half < 2; ++half)
-    if (tile_.half[half].pixels > 0) list_lengths.push_back(halves_[half].lists().count);
+    if (tile_.half[half].pixels > 0) counts.list_lengths.push_back(halves_[half].lists().count);
   const auto listed = std::chrono::steady_clock::now();
-  const bool divide_by_p = inputs_.settings.ranges == Ranges::stochastic;
   const Emitter* emitters = lights.emitters.data() + lights.begin[subset];
   for (std::uint32_t g = 0; g < tile_.group_count; ++g) {
     const PixelGroup& group = tile_.groups[g];
-    LightList<Emitter> list{emitters, group_lists_.data() + group_begin_[g], group_begin_[g + 1] - group_begin_[g],
-                            nullptr};
-    find_shadows(group, list);
-    LUCIOLE_FOR_ISA(inputs_.settings.isa, shade_group(group, list, divide_by_p, sum_));
-    counts.evaluated += std::uint64_t(list.count) * kGroupPixels;
-    add_to_pixels(group, radiance);
-    if (part != nullptr) add_to_pixels(group, *part);
-    count(group, halves_[group.half].lists().count, counts);
+    const LightList<Emitter> list{emitters, group_lists_.data() + group_begin_[g],
+                                  group_begin_[g + 1] - group_begin_[g], nullptr};
+    std::fill(listed_, listed_ + kGroupPixels, static_cast<float>(halves_[group.part].lists().count));
+    shader_.add(group, list, listed_, added, radiance, part);
   }
-  culling_seconds += std::chrono::duration<double>(listed - start).count();
-  shading_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - listed).count();
+  counts.culling_seconds += std::chrono::duration<double>(listed - start).count();
+  counts.shading_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - listed).count();
 }
 
 void TileWorker::run_block(std::uint32_t bx, std::uint32_t by) {
@@ -150,15 +105,15 @@ void TileWorker::run_block(std::uint32_t bx, std::uint32_t by) {
   for (std::uint32_t s = 0; s < n * n; ++s) {
     const auto start = std::chrono::steady_clock::now();
     read_tile(inputs_.geometry, {n, bx, by, s % n, s / n}, tile_);
-    shading_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    counts.shading_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (tile_.group_count == 0) continue;
-    pixels += tile_.half[0].pixels + tile_.half[1].pixels;
+    counts.pixels += tile_.half[0].pixels + tile_.half[1].pixels;
     const std::uint32_t subset = (s + inputs_.shift) % (n * n);
     ShadedRadiance& radiance = outputs_.radiance;
     const bool apart = inputs_.lobes_apart;
-    add_lights(inputs_.diffuse, subset, diffuse, radiance.indirect, apart ? &radiance.from_diffuse : nullptr);
-    add_lights(inputs_.glossy, subset, glossy, radiance.indirect, apart ? &radiance.from_glossy : nullptr);
-    add_lights(inputs_.many, subset, many, radiance.from_many);
+    add_lights(inputs_.diffuse, subset, counts.diffuse, radiance.indirect, apart ? &radiance.from_diffuse : nullptr);
+    add_lights(inputs_.glossy, subset, counts.glossy, radiance.indirect, apart ? &radiance.from_glossy : nullptr);
+    add_lights(inputs_.many, subset, counts.many, radiance.from_many);
   }
 }
 

@@ -6,8 +6,7 @@
 #include "base/isa.h"
 #include "real_time/light_culling/cull_kernel.h"
 #include "real_time/light_culling/tile.h"
-#include "real_time/shading/shade_kernel.h"
-#include "real_time/shading/shading_pass.h"
+#include "real_time/shading/group_shader.h"
 
 namespace luciole {
 
@@ -28,39 +27,31 @@ class ListMemory {
 
 class TileWorker {
  public:
-  TileWorker(const ShadingInputs& inputs, ShadingOutputs& outputs) : inputs_(inputs), outputs_(outputs) {}
+  TileWorker(const ShadingInputs& inputs, ShadingOutputs& outputs)
+      : inputs_(inputs), outputs_(outputs), shader_(inputs, outputs) {}
 
   // All tiles of one 16n x 16n block of pixels.
   void run_block(std::uint32_t bx, std::uint32_t by);
 
-  LightCounts diffuse, glossy, many;
-  std::vector<std::uint32_t> list_lengths;
-  std::uint64_t pixels = 0;
-  double culling_seconds = 0, shading_seconds = 0;  // of this thread; reading the tile's pixels counts as shading
+  ShadingCounts counts;  // of this thread
 
  private:
   template <class Emitter>
-  void add_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset, LightCounts& counts, Radiance& radiance,
+  void add_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset, LightCounts& added, Radiance& radiance,
                   Radiance* part = nullptr);
   template <class Emitter>
   void list_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset);
   // The lists of all groups one after the other, as indices into the subset.
   void list_lights_of_groups(std::uint32_t subset_lights);
-  void find_shadows(const PixelGroup& group, LightList<ManyEmitter>& list);
-  void find_shadows(const PixelGroup&, LightList<DiffuseEmitter>&) {}
-  void find_shadows(const PixelGroup&, LightList<GlossyEmitter>&) {}
-  // Adds the sum of a group's lights to its pixels.
-  void add_to_pixels(const PixelGroup& group, Radiance& radiance) const;
-  void count(const PixelGroup& group, std::uint32_t listed, LightCounts& counts);
 
   const ShadingInputs& inputs_;
   ShadingOutputs& outputs_;
+  GroupShader shader_;
   ScreenTile tile_;
   ListMemory halves_[2];
   AlignedVector<std::uint32_t> group_lists_;
   std::vector<std::uint32_t> group_begin_;  // list of group g: [group_begin_[g], group_begin_[g + 1])
-  std::vector<std::uint16_t> visible_;
-  GroupRadiance sum_;
+  float listed_[kGroupPixels];
 };
 
 }  // namespace luciole
