@@ -26,9 +26,11 @@ struct FrameStatistics {
   std::vector<std::pair<std::string, double>> passes_ms;  // in the order of the frame
   double frame_ms = 0;                                    // without loading and BVH building
   std::uint64_t virtual_point_lights = 0, many_lights = 0;
-  PerPixel listed, accepted, false_positives;  // listed: in the list of the pixel's depth half
-  PerPixel evaluated;  // of those, left to the shading kernel by the test of each group of 16 pixels
-  double list_length_mean = 0, list_length_p99 = 0, list_length_max = 0;  // per list: (sub-region tile, depth half)
+  // listed: in the list of the pixel's depth half or cluster; splatting: lights whose splat covers the pixel
+  PerPixel listed, accepted, false_positives;
+  PerPixel evaluated;  // through the shading kernel, 16 pixels at once: tiled culling tests each 16 pixels once more
+  // Per list: (sub-region tile, depth half), cluster, or 4x4 pixels.
+  double list_length_mean = 0, list_length_p99 = 0, list_length_max = 0;
 
   // Pixels whose light came out as no number or infinite, and was made good: by their neighbours' in the filter, else
   // black. Rare, or a mistake of ours.

@@ -85,14 +85,76 @@ TEST(LightCulling, changes_the_cost_but_never_the_picture) {
   }
 }
 
+TEST(Rivals, of_tiled_culling_make_the_same_picture_on_any_number_of_threads) {
+  for (const char* address : {"recipe:cornell?glossy=0.1", "recipe:ring?alpha=0.1", "recipe:lights?count=300"}) {
+    const Stage scene = stage(address);
+    for (const std::uint32_t interleave : {1u, 8u}) {
+      Settings settings = small_settings();
+      settings.interleave = interleave;
+      const std::vector<Vec3> tiled = picture(scene, settings);
+      for (const BoundingVolume bounds :
+           {BoundingVolume::sphere_at_light, BoundingVolume::sphere, BoundingVolume::spheroid, BoundingVolume::tight}) {
+        for (const Culling culling : {Culling::clustered, Culling::splatting}) {
+          for (const int threads : {1, 2}) {
+            settings.bounds = bounds, settings.culling = culling;
+            settings.tile_test = threads == 1 ? TileTest::paper : TileTest::tight;  // with what is below the surface
+            std::vector<Vec3> rival;
+            with_threads(threads, [&] { rival = picture(scene, settings); });
+            EXPECT_TRUE(same_bits(rival, tiled))
+                << address << ", interleave " << interleave << ", bounds " << to_string(bounds) << ", "
+                << to_string(culling) << ", " << threads << " threads";
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(LightCulling, agrees_on_every_instruction_set) {
   const Stage scene = stage("recipe:cornell?glossy=0.1");
   for (const Isa isa : instruction_sets()) {
     Settings settings = small_settings();
     settings.isa = isa;
     const std::vector<Vec3> culled = picture(scene, settings);
-    settings.culling = Culling::none;
-    EXPECT_TRUE(same_bits(picture(scene, settings), culled)) << to_string(isa);
+    for (const Culling culling : {Culling::clustered, Culling::splatting, Culling::none}) {
+      settings.culling = culling;
+      EXPECT_TRUE(same_bits(picture(scene, settings), culled)) << to_string(isa) << ", " << to_string(culling);
+    }
+  }
+}
+
+TEST(LightCulling, with_shadow_rays_and_moving_samples_is_the_same_in_all_ways) {
+  const Stage scene = stage("recipe:lamps?count=500");
+  Settings settings = small_settings();
+  settings.direct_shadows = settings.jitter = true;
+  settings.interleave = 2, settings.vpl_seed = 3;
+  const std::vector<Vec3> tiled = picture(scene, settings, 5);
+  for (const Culling culling : {Culling::clustered, Culling::splatting, Culling::none}) {
+    settings.culling = culling;
+    EXPECT_TRUE(same_bits(picture(scene, settings, 5), tiled)) << to_string(culling);
+  }
+}
+
+// Whatever finds the lights: those that are accepted are the same, and no pixel accepts one that it was not given.
+TEST(LightCulling, counts_what_it_lists) {
+  const Stage scene = stage("recipe:ring?alpha=0.1");
+  Settings settings = small_settings();
+  double accepted = 0;
+  for (const Culling culling : {Culling::tiled, Culling::clustered, Culling::splatting, Culling::none}) {
+    settings.culling = culling;
+    Result<Renderer> renderer = Renderer::create(scene.scene, scene.camera, scene.primaries, settings);
+    const Frame frame = *renderer->render(0, {"lights_listed", "lights_false", "depth"});
+    const FrameStatistics& statistics = frame.statistics;
+    if (culling == Culling::tiled) accepted = statistics.accepted.total();
+    EXPECT_EQ(statistics.accepted.total(), accepted) << to_string(culling);
+    EXPECT_GT(statistics.list_length_max, 0) << to_string(culling);
+    double listed = 0, surfaces = 0;
+    for (std::size_t i = 0; i < frame.picture.size(); ++i) {
+      listed += frame.layers.channels.at("lights_listed.V")[i];
+      surfaces += std::isfinite(frame.layers.channels.at("depth.V")[i]);
+      EXPECT_GE(frame.layers.channels.at("lights_false.V")[i], 0) << to_string(culling) << ", pixel " << i;
+    }
+    EXPECT_NEAR(listed / surfaces, statistics.listed.total(), 1e-6 * listed / surfaces) << to_string(culling);
   }
 }
 

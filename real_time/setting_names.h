@@ -15,7 +15,12 @@ constexpr NameTable<BoundingVolume, 4> names(BoundingVolume) {
 constexpr NameTable<TileTest, 3> names(TileTest) {
   return {{{TileTest::paper, "paper"}, {TileTest::exact, "exact"}, {TileTest::tight, "tight"}}};
 }
-constexpr NameTable<Culling, 2> names(Culling) { return {{{Culling::tiled, "tiled"}, {Culling::none, "none"}}}; }
+constexpr NameTable<Culling, 4> names(Culling) {
+  return {{{Culling::tiled, "tiled"},
+           {Culling::clustered, "clustered"},
+           {Culling::splatting, "splatting"},
+           {Culling::none, "none"}}};
+}
 constexpr NameTable<Ranges, 4> names(Ranges) {
   return {{{Ranges::stochastic, "stochastic"},
            {Ranges::clamped, "clamped"},

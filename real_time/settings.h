@@ -16,11 +16,16 @@ enum class BoundingVolume : std::uint8_t {
   tight             // our ellipsoid: also knows Fresnel, masking and the lobe's squeeze at grazing incidence
 };
 enum class TileTest : std::uint8_t {
-  paper,  // [TH17] Eqs. 16-17 with Modified HalfZ
+  paper,  // [TH17] Eqs. 16-17 with Modified HalfZ; clusters and splats of the proxies alone
   exact,  // ellipsoid against frustum without slack: the measure of the others, slow
-  tight   // triangular factor, side planes, below-surface plane
+  tight   // triangular factor, side planes, below-surface plane; of these splats take the last
 };
-enum class Culling : std::uint8_t { tiled, none };
+enum class Culling : std::uint8_t {
+  tiled,      // each tile asks all lights, [TH17] sect. 5
+  clustered,  // each light asks for its clusters: conservative rasterisation, Örtegren and Persson 2016
+  splatting,  // each light asks for its pixels: Dachsbacher and Stamminger 2006
+  none        // all lights everywhere
+};
 enum class Ranges : std::uint8_t {
   stochastic,     // one random number per light and frame; exact in the mean
   clamped,        // one constant for all lights that accepts as many as stochastic ones: what engines do; too dark

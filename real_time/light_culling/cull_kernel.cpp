@@ -7,31 +7,7 @@ namespace luciole::LUCIOLE_ISA {
 #include "equations/cpp/wide_lists.inc"
 namespace {
 
-// Side planes of the tile with unit normals, for the sphere that goes ahead of the ellipsoid.
-struct SidePlanes {
-  real left_x, left_z, right_x, right_z, low_y, low_z, high_y, high_z;
-  real depth_low, depth_high;
-};
-
-LUCIOLE_FN float inverse_length(float slope) { return 1.0f / __builtin_sqrtf(1.0f + slope * slope); }
-
-LUCIOLE_FN SidePlanes side_planes(const TileFrustum& f) {
-  const float left = inverse_length(f.x_low), right = inverse_length(f.x_high);
-  const float low = inverse_length(f.y_low), high = inverse_length(f.y_high);
-  SidePlanes p;
-  p.left_x = left, p.left_z = f.x_low * left, p.right_x = right, p.right_z = f.x_high * right;
-  p.low_y = low, p.low_z = f.y_low * low, p.high_y = high, p.high_z = f.y_high * high;
-  p.depth_low = f.near_low, p.depth_high = f.far_low <= f.far_high ? f.far_high : f.near_high;
-  return p;
-}
-
-// Conservative and cheap: 12 operations reject most of the lights, whatever their kind of bound.
-LUCIOLE_FN mask sphere_may_touch(const SidePlanes& p, real3 centre, real radius) {
-  const real gap_x = max(p.left_z * centre.z - p.left_x * centre.x, p.right_x * centre.x - p.right_z * centre.z);
-  const real gap_y = max(p.low_z * centre.z - p.low_y * centre.y, p.high_y * centre.y - p.high_z * centre.z);
-  const real gap_z = max(p.depth_low - centre.z, centre.z - p.depth_high);
-  return max(max(gap_x, gap_y), gap_z) <= radius;
-}
+#include "real_time/light_culling/side_planes.inc"
 
 LUCIOLE_FN TileTestEllipsoid load_ellipsoid(const BoundBlock& b, int lane) {
   const auto row = [&](BoundBlock::Row r) { return load(b.row[r] + lane); };

@@ -109,7 +109,7 @@ RangeParameters range_parameters(const Settings& settings, const Camera& camera,
   p.stratum_shift = frame_bits(key, kDimensionStratum);
   p.disc = settings.near_field == NearField::disc;
   p.bounds = settings.bounds;
-  p.paper_rows = settings.tile_test == TileTest::paper;
+  p.paper_rows = settings.culling == Culling::tiled && settings.tile_test == TileTest::paper;
   copy(camera.eye, p.eye), copy(camera.right, p.right), copy(camera.up, p.up), copy(camera.forward, p.forward);
   return p;
 }

@@ -20,7 +20,7 @@ struct alignas(64) PixelGroup {
   float view_low[3], view_high[3];    // box round the pixels in view space (right, up, forward) [m]
   std::uint32_t pixel[kGroupPixels];  // row-major index in the screen
   std::uint32_t count;                // pixels in use
-  std::uint32_t part;  // what it belongs to: depth half 0 near, 1 far
+  std::uint32_t part;  // what it belongs to: depth half 0 near, 1 far; or number of a part (tile_parts.h)
 };
 
 // What a list of lights adds to a group: demodulated light of one kind of lobe (see Radiance), and counts.

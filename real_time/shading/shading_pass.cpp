@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "base/parallel.h"
+#include "real_time/shading/list_worker.h"
 #include "real_time/shading/tile_worker.h"
 
 namespace luciole {
@@ -67,7 +68,13 @@ ShadingOutputs shade(const ShadingInputs& inputs) {
     out.lights_listed.assign(pixels, 0.0f);
     out.lights_false.assign(pixels, 0.0f);
   }
-  run_blocks(inputs, out, [&] { return TileWorker(inputs, out); });
+  if (inputs.settings.culling == Culling::clustered || inputs.settings.culling == Culling::splatting) {
+    const PartLists lists(inputs);
+    out.culling_seconds = lists.busy_seconds();
+    run_blocks(inputs, out, [&] { return ListWorker(inputs, lists, out); });
+  } else {
+    run_blocks(inputs, out, [&] { return TileWorker(inputs, out); });
+  }
   return out;
 }
 

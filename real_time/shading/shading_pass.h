@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pass: geometry buffer x reaching lights -> noisy radiance. Tiled culling and shading go together, tile by tile, so
-// that a light list lives only as long as its tile is in the cache ([TH17] §6).
+// that a light list lives only as long as its tile is in the cache ([TH17] §6). The rivals list all lights first.
 #pragma once
 #include <cstdint>
 
@@ -25,7 +25,8 @@ struct ShadingInputs {
   bool lobes_apart = false;           // fill from_diffuse and from_glossy
 };
 
-// Counts of one kind of lobe. A list belongs to one depth half of one tile.
+// Counts of one kind of lobe. A list belongs to one depth half of one tile, or to one cluster; splatting gives lights
+// to single pixels, and its lists are those of cells of 4x4 pixels.
 struct LightCounts {
   std::uint64_t listed = 0;     // light x pixel pairs that culling left
   std::uint64_t evaluated = 0;  // pairs that went through the shading kernel, 16 lanes a group

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which tiles the proxy of a light covers, and there which clusters or cells. Nothing is clipped at a near plane, and
+// the eye may be inside.
+#pragma once
+#include <cstdint>
+
+#include "real_time/light_culling/cluster_slices.h"
+#include "real_time/light_culling/sphere_proxy.h"
+#include "real_time/light_range/reaching_lights.h"
+#include "real_time/settings.h"
+#include "real_time/shading/pixel_group.h"
+
+namespace luciole {
+
+// Some rows of tiles of one sub-region. Borders between tiles lie halfway between the pixels on either side.
+struct TileBand {
+  float x_first, x_step;  // slope right/forward of the border left of column c: x_first + c * x_step
+  float y_first, y_step;  // slope up/forward of the border above row r: y_first + r * y_step, y_step < 0
+  std::uint32_t columns, row_begin, row_end;
+  const std::uint32_t* occupied;  // per tile of the sub-region, row by row (TileParts)
+  const std::uint32_t* first;
+  ClusterSlices slices;  // of all surfaces
+  TileTest test;         // LightListInputs
+};
+
+// What splatting asks of the pixels of a cell. The depth of lanes without a pixel is no number: no test passes.
+struct alignas(64) CellPixels {
+  float x[kGroupPixels], y[kGroupPixels];  // slopes right/forward and up/forward
+  float depth[kGroupPixels];               // [m]
+};
+
+// Parts of a tile that a light's proxy covers.
+struct LightSpan {
+  std::uint32_t light;  // in the subset
+  std::uint32_t tile;   // of the sub-region
+  std::uint32_t parts;  // bits, as in TileParts::occupied, never 0
+};
+
+// Depths of a proxy in each tile of a band, column by column: memory for tiles of the band.
+struct TileDepths {
+  float *low, *high;  // [m]
+};
+
+// Declares, in the namespace of one instruction set, what takes the up to 16 lights of a block to the tiles of a band.
+// Both write spans in ascending order of lights, at most 16 per tile of the band, and return how many.
+//   cluster_lights  by conservative rasterisation of an icosahedron
+//   splat_lights    by rasterisation of the back of a geodesic sphere, where it lies behind the pixel's surface
+//     cells     per part
+//     covering  per part and lane; each covered pixel's is raised by 1
+//     bits      zero, per cell of the band, and zero after the call
+#define LUCIOLE_DECLARE_PROXY_KERNELS(isa)                                                                 \
+  namespace luciole::isa {                                                                                 \
+  std::uint32_t cluster_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,   \
+                               const IcosahedronProxy& proxy, const TileDepths& depths, LightSpan* spans); \
+  std::uint32_t splat_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,     \
+                             const GeodesicProxy& proxy, const CellPixels* cells, float* covering,         \
+                             std::uint16_t* bits, LightSpan* spans);                                       \
+  }
+}  // namespace luciole
+LUCIOLE_DECLARE_PROXY_KERNELS(avx512)
+LUCIOLE_DECLARE_PROXY_KERNELS(avx2)
+LUCIOLE_DECLARE_PROXY_KERNELS(baseline)
+#undef LUCIOLE_DECLARE_PROXY_KERNELS

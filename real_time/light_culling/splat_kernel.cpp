@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rasterisation of geodesic spheres at full resolution (Dachsbacher and Stamminger 2006): a light is given to each
+// pixel whose surface lies before one of the 80 triangles, seen from inside. Of a convex polyhedron each ray leaves
+// through one such triangle, also where the eye is inside, so each pixel is covered once. Edges are functions of the
+// ray, linear in its slopes, and need no vertex in front of the eye.
+#include "equations/cpp/wide.h"
+#include "real_time/light_culling/cull_kernel.h"
+#include "real_time/light_culling/proxy_kernel.h"
+
+namespace luciole::LUCIOLE_ISA {
+namespace {
+// In the order of dependence, which is not that of the alphabet.
+// clang-format off
+#include "real_time/light_culling/side_planes.inc"
+#include "real_time/light_culling/proxy.inc"
+// clang-format on
+
+constexpr int kTriangles = GeodesicProxy::kTriangles;
+constexpr int kCells = 4;              // per side of a tile
+constexpr float kOverlap = 1.0f / 16;  // of a cell's side: where in the pixel the ray goes, and rounding
+constexpr float kFar = 1e30f;
+
+// A linear function of a ray's slopes: x * ray.x + y * ray.y + z.
+enum Row : int {
+  kEdge = 0,    // three functions, not negative inside the triangle
+  kPlane = 9,   // one function: the triangle's depth along the ray is the limit over it
+  kLimit = 12,  // > 0: the triangle is seen from inside
+  kLeft,
+  kRight,
+  kTop,
+  kBottom,  // cells with fractions, of the part beyond the nearest surface; left > right: none
+  kRows
+};
+
+struct alignas(64) Triangles {
+  float row[kRows][kTriangles];
+};
+
+struct LinearFunction {
+  real x, y, z;
+};
+
+// ray -> v . (factor * ray), and a bound of what is lost by rounding for slopes up to 2.
+LUCIOLE_FN LinearFunction of_ray(const TriangularFactor& m, real3 v) {
+  return {m.m00 * v.x, m.m01 * v.x + m.m11 * v.y, m.m02 * v.x + m.m12 * v.y + m.m22 * v.z};
+}
+LUCIOLE_FN real rounding(const TriangularFactor& m, real3 v) {
+  const real3 a = abs(v);
+  return 1e-6f * ((m.m00 + abs(m.m01) + abs(m.m02)) * a.x + (m.m11 + abs(m.m12)) * a.y + m.m22 * a.z);
+}
+
+LUCIOLE_FN real3 load_corner(const GeodesicProxy& proxy, int corner, int first) {
+  return real3(load(proxy.corner[corner][0] + first), load(proxy.corner[corner][1] + first),
+               load(proxy.corner[corner][2] + first));
+}
+
+struct CellExtent {
+  real left = kFar, right = -kFar, top = kFar, bottom = -kFar;
+
+  LUCIOLE_FN void add(const TileBand& band, real x_slope, real y_slope, mask chosen) {
+    const real x = (x_slope - band.x_first) * (kCells / band.x_step);
+    const real y = (y_slope - band.y_first) * (kCells / band.y_step);
+    left = select(chosen, min(x, left), left), right = select(chosen, max(x, right), right);
+    top = select(chosen, min(y, top), top), bottom = select(chosen, max(y, bottom), bottom);
+  }
+};
+
+// Only what lies beyond the nearest surface can cover a pixel.
+LUCIOLE_FN CellExtent extent_of(const TileBand& band, const real3 (&corner)[3]) {
+  const real nearest = depth_of_slice(band.slices, 0) * (1.0f - 1e-5f), inverse_nearest = 1.0f / nearest;
+  CellExtent extent;
+  for (int k = 0; k < 3; ++k) {
+    const real3 a = corner[k], b = corner[(k + 1) % 3];
+    const mask beyond = a.z >= nearest, next_beyond = b.z >= nearest;
+    const real inverse_depth = inverse(a.z);
+    extent.add(band, a.x * inverse_depth, a.y * inverse_depth, beyond);
+    const mask cut = (beyond || next_beyond) && !(beyond && next_beyond);
+    if (!any(cut)) continue;
+    const real t = (nearest - a.z) / (b.z - a.z);
+    extent.add(band, (a.x + (b.x - a.x) * t) * inverse_nearest, (a.y + (b.y - a.y) * t) * inverse_nearest, cut);
+  }
+  return extent;
+}
+
+// Triangle by triangle, one per lane. In the stretched space the sphere is at the origin and the eye at -stretched.
+LUCIOLE_FN void set_up(const ProxyEllipsoid& e, const GeodesicProxy& proxy, const TileBand& band, Triangles& out) {
+  for (int first = 0; first < kTriangles; first += kLanes) {
+    const auto put = [&](int row, real value) { store(out.row[row] + first, value); };
+    const auto put_function = [&](int row, LinearFunction f) { put(row, f.x), put(row + 1, f.y), put(row + 2, f.z); };
+    real3 stretched_corner[3], corner[3];
+    for (int k = 0; k < 3; ++k) {
+      stretched_corner[k] = load_corner(proxy, k, first);
+      corner[k] = to_view(e, stretched_corner[k]);
+    }
+    for (int k = 0; k < 3; ++k) {
+      const real3 p = stretched_corner[k], q = stretched_corner[(k + 1) % 3];
+      const real3 side = cross(p, q) + cross(e.test.stretched, q - p);  // (p + stretched) x (q + stretched)
+      LinearFunction edge = of_ray(e.test.factor, side);
+      edge.z += rounding(e.test.factor, side);  // no pixel falls between two triangles
+      put_function(kEdge + 3 * k, edge);
+    }
+    const real3 normal =
+        real3(load(proxy.normal[0] + first), load(proxy.normal[1] + first), load(proxy.normal[2] + first));
+    put_function(kPlane, of_ray(e.test.factor, normal));
+    put(kLimit, load(proxy.distance + first) + dot(normal, e.test.stretched));
+    const CellExtent extent = extent_of(band, corner);
+    put(kLeft, extent.left), put(kRight, extent.right), put(kTop, extent.top), put(kBottom, extent.bottom);
+  }
+}
+
+// The cells of a band, [row_begin, row_end) counted from the top of the picture.
+struct CellRaster {
+  const TileBand& band;
+  const CellPixels* cells;
+  std::uint16_t* bits;
+  int columns, row_begin, row_end;
+};
+
+LUCIOLE_FN ScreenRectangle cells_of(const CellRaster& raster, const Triangles& t, int i) {
+  ScreenRectangle r;
+  r.column_begin = larger(whole_below(t.row[kLeft][i] - kOverlap), 0);
+  r.column_end = smaller(whole_below(t.row[kRight][i] + kOverlap) + 1, raster.columns);
+  r.row_begin = larger(whole_below(t.row[kTop][i] - kOverlap), raster.row_begin);
+  r.row_end = smaller(whole_below(t.row[kBottom][i] + kOverlap) + 1, raster.row_end);
+  return r;
+}
+
+// Which pixels of a cell the triangle covers.
+LUCIOLE_FN std::uint32_t covered_pixels(const CellPixels& cell, const Triangles& t, int i) {
+  const auto at = [&](int row, real x, real y) {
+    return t.row[row][i] * x + (t.row[row + 1][i] * y + t.row[row + 2][i]);
+  };
+  std::uint32_t bits = 0;
+  for (int lane = 0; lane < kGroupPixels; lane += kLanes) {
+    const real x = load(cell.x + lane), y = load(cell.y + lane), depth = load(cell.depth + lane);
+    const real edges = min(min(at(kEdge, x, y), at(kEdge + 3, x, y)), at(kEdge + 6, x, y));
+    bits |= lane_bits(edges >= 0.0f && depth * at(kPlane, x, y) <= t.row[kLimit][i]) << lane;
+  }
+  return bits;
+}
+
+LUCIOLE_FN void rasterise(const CellRaster& raster, const ScreenRectangle& r, const Triangles& t, int i) {
+  for (int row = r.row_begin; row < r.row_end; ++row) {
+    std::uint16_t* bits = raster.bits + (row - raster.row_begin) * raster.columns;
+    for (int column = r.column_begin; column < r.column_end; ++column) {
+      const auto tile =
+          static_cast<std::uint32_t>(row / kCells) * raster.band.columns + static_cast<std::uint32_t>(column / kCells);
+      const std::uint32_t bit = 1u << (row % kCells * kCells + column % kCells), occupied = raster.band.occupied[tile];
+      if ((occupied & bit) == 0) continue;
+      const std::uint32_t part =
+          raster.band.first[tile] + static_cast<std::uint32_t>(__builtin_popcount(occupied & (bit - 1)));
+      bits[column] = static_cast<std::uint16_t>(bits[column] | covered_pixels(raster.cells[part], t, i));
+    }
+  }
+}
+
+// Of the covered pixels, those above the light's surface; raises their counts.
+LUCIOLE_FN std::uint32_t count_pixels(const TileBand& band, const SurfacePlane& surface, const CellPixels& cell,
+                                      std::uint32_t covered, float* covering) {
+  std::uint32_t kept = 0;
+  for (int lane = 0; lane < kGroupPixels; lane += kLanes) {
+    const real x = load(cell.x + lane), y = load(cell.y + lane), depth = load(cell.depth + lane);
+    const real height = (surface.normal.x * x + surface.normal.y * y + surface.normal.z) * depth;
+    mask pixels = mask_from_bits(covered >> lane);
+    if (band.test != TileTest::paper) pixels = pixels && height >= surface.offset;
+    store(covering + lane, load(covering + lane) + select(pixels, real(1.0f), real(0.0f)));
+    kept |= lane_bits(pixels) << lane;
+  }
+  return kept;
+}
+
+std::uint32_t splat_light(const ProxyEllipsoid& e, std::uint32_t light, const CellRaster& raster,
+                          const GeodesicProxy& proxy, float* covering, LightSpan* spans) {
+  const TileBand& band = raster.band;
+  Triangles triangles;
+  set_up(e, proxy, band, triangles);
+  ScreenRectangle touched = {raster.columns, 0, raster.row_end, 0};
+  for (int i = 0; i < kTriangles; ++i) {
+    if (!(triangles.row[kLimit][i] > 0.0f)) continue;  // its outside is seen
+    const ScreenRectangle r = cells_of(raster, triangles, i);
+    if (is_empty(r)) continue;
+    rasterise(raster, r, triangles, i);
+    touched.column_begin = smaller(touched.column_begin, r.column_begin);
+    touched.column_end = larger(touched.column_end, r.column_end);
+    touched.row_begin = smaller(touched.row_begin, r.row_begin), touched.row_end = larger(touched.row_end, r.row_end);
+  }
+  if (is_empty(touched)) return 0;
+  std::uint32_t count = 0;
+  for (int tile_row = touched.row_begin / kCells; tile_row * kCells < touched.row_end; ++tile_row) {
+    for (int tile_column = touched.column_begin / kCells; tile_column * kCells < touched.column_end; ++tile_column) {
+      const auto tile = static_cast<std::uint32_t>(tile_row) * band.columns + static_cast<std::uint32_t>(tile_column);
+      std::uint32_t part = band.first[tile], cells = 0;
+      for (std::uint32_t left = band.occupied[tile]; left != 0; left &= left - 1, ++part) {
+        const int cell = __builtin_ctz(left);
+        std::uint16_t& bits = raster.bits[(tile_row * kCells + cell / kCells - raster.row_begin) * raster.columns +
+                                          tile_column * kCells + cell % kCells];
+        if (bits == 0) continue;
+        const std::uint32_t kept =
+            count_pixels(band, e.test.surface, raster.cells[part], bits, covering + std::size_t(part) * kGroupPixels);
+        bits = 0;
+        if (kept != 0) cells |= 1u << cell;
+      }
+      if (cells != 0) spans[count++] = {light, tile, cells};
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+std::uint32_t splat_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,
+                           const GeodesicProxy& proxy, const CellPixels* cells, float* covering, std::uint16_t* bits,
+                           LightSpan* spans) {
+  const CellRaster raster = {band,
+                             cells,
+                             bits,
+                             static_cast<int>(band.columns) * kCells,
+                             static_cast<int>(band.row_begin) * kCells,
+                             static_cast<int>(band.row_end) * kCells};
+  std::uint32_t count = 0;
+  for (std::uint32_t near = lights_near(block, band); near != 0; near &= near - 1) {
+    const int lane = __builtin_ctz(near);
+    count += splat_light(load_proxy(block, lane), first_light + static_cast<std::uint32_t>(lane), raster, proxy,
+                         covering, spans + count);
+  }
+  return count;
+}
+
+}  // namespace luciole::LUCIOLE_ISA
