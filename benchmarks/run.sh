@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Remakes docs/results: benchmarks/run.sh [culling|speed|kernel|scaling|steadiness|filter|memory|light_choice|
+# Remakes docs/results: benchmarks/run.sh [culling|baselines|speed|kernel|scaling|steadiness|filter|memory|light_choice|
 # ray_rate|equal_time|pbrt ...], all without arguments (equal_time alone takes an hour; pbrt only where $PBRT
 # names that program). Builds into $BUILD (default: build). Shots of files take part where $LUCIOLE_SCENES names their folder.
 set -euo pipefail
@@ -223,12 +223,12 @@ pbrt_row() {
 }
 
 pages=("$@")
-((${#pages[@]})) || pages=(speed memory kernel filter scaling steadiness culling light_choice ray_rate equal_time)
+((${#pages[@]})) || pages=(speed memory kernel filter scaling steadiness culling baselines light_choice ray_rate equal_time)
 [[ -n ${PBRT:-} ]] && ((! $#)) && pages+=(pbrt)
 for name in "${pages[@]}"; do
   case $name in
     speed | memory | kernel | filter | ray_rate | equal_time | pbrt) page "$name" "$name" ;;
-    scaling | steadiness | culling | light_choice) page "$name" "$programs/${name}_benchmark" ;;
+    scaling | steadiness | culling | baselines | light_choice) page "$name" "$programs/${name}_benchmark" ;;
     *)
       echo "run.sh: no page '$name'" >&2
       exit 2
