@@ -34,8 +34,9 @@ struct Outcome {
 class CommandLine : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ =
-        fs::path(LUCIOLE_SCRATCH_DIR) / "command_line" / testing::UnitTest::GetInstance()->current_test_info()->name();
+    // Test programs run side by side, and tests of two suites may have one name.
+    const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(LUCIOLE_SCRATCH_DIR) / test.test_suite_name() / test.name();
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "out");
   }
