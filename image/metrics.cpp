@@ -28,25 +28,30 @@ double ratio(double numerator, double denominator, double equal) {
   return numerator == 0 ? equal : std::numeric_limits<double>::infinity();
 }
 
-Comparison compare_linear(const std::vector<Vec3>& picture, const std::vector<Vec3>& reference) {
+// All but FLIP.
+MappedComparison compare_linear(const std::vector<Vec3>& picture, const std::vector<Vec3>& reference) {
   const double reference_mean = mean_of(reference);
   const double count = 3.0 * static_cast<double>(reference.size());
-  Comparison result;
+  MappedComparison result;
   double squares = 0, relative_squares = 0;
+  // Gives the relative square of one value.
   const auto add = [&](double x, double r) {
     const double difference = x - r;
     squares += difference * difference;
-    relative_squares += ratio(difference * difference, r * r + 0.01 * reference_mean * reference_mean, 0);
-    result.largest_difference = std::max(result.largest_difference, std::abs(difference));
+    result.figures.largest_difference = std::max(result.figures.largest_difference, std::abs(difference));
+    return ratio(difference * difference, r * r + 0.01 * reference_mean * reference_mean, 0);
   };
+  result.maps.relative_error.reserve(reference.size());
   for (std::size_t i = 0; i < reference.size(); ++i) {
-    add(picture[i].x, reference[i].x);
-    add(picture[i].y, reference[i].y);
-    add(picture[i].z, reference[i].z);
+    const double red = add(picture[i].x, reference[i].x);
+    const double green = add(picture[i].y, reference[i].y);
+    const double blue = add(picture[i].z, reference[i].z);
+    relative_squares += red + green + blue;
+    result.maps.relative_error.push_back(static_cast<float>(std::sqrt((red + green + blue) / 3)));
   }
-  result.rmse = std::sqrt(squares / count);
-  result.relmse = relative_squares / count;
-  result.mean_ratio = ratio(mean_of(picture), reference_mean, 1);
+  result.figures.rmse = std::sqrt(squares / count);
+  result.figures.relmse = relative_squares / count;
+  result.figures.mean_ratio = ratio(mean_of(picture), reference_mean, 1);
   return result;
 }
 
@@ -54,23 +59,38 @@ std::string size_text(const Image& image) { return std::to_string(image.width) +
 
 }  // namespace
 
-Result<Comparison> compare(const Image& picture, const Image& reference, const ComparisonSettings& settings) {
+Status check_comparable(const Image& picture) {
+  const std::vector<Vec3> pixels = picture.colours("");
+  if (pixels.empty()) return cannot_compare("a picture without channels R, G, B");
+  if (!all_finite(pixels)) return cannot_compare("a picture has values that are not finite");
+  return Done{};
+}
+
+Result<MappedComparison> compare_with_maps(const Image& picture, const Image& reference,
+                                           const ComparisonSettings& settings) {
   if (picture.width != reference.width || picture.height != reference.height) {
     return cannot_compare("the pictures differ in size (" + size_text(picture) + " and " + size_text(reference) + ")");
   }
+  for (const Image* image : {&picture, &reference}) {
+    if (Status status = check_comparable(*image); !status) return status.error();
+  }
   const std::vector<Vec3> x = picture.colours(""), r = reference.colours("");
-  if (x.empty() || r.empty()) return cannot_compare("a picture without channels R, G, B");
-  if (!all_finite(x) || !all_finite(r)) return cannot_compare("a picture has values that are not finite");
-  Comparison result = compare_linear(x, r);
+  MappedComparison result = compare_linear(x, r);
   const auto displayed = [&](const std::vector<Vec3>& pixels) {
     return to_display(pixels, settings.exposure, settings.tone_curve);
   };
-  const std::vector<float> map =
+  result.maps.flip =
       flip_map(displayed(x), displayed(r), reference.width, reference.height, settings.pixels_per_degree);
   double sum = 0;
-  for (const float difference : map) sum += difference;
-  result.flip = sum / static_cast<double>(map.size());
+  for (const float difference : result.maps.flip) sum += difference;
+  result.figures.flip = sum / static_cast<double>(result.maps.flip.size());
   return result;
+}
+
+Result<Comparison> compare(const Image& picture, const Image& reference, const ComparisonSettings& settings) {
+  const Result<MappedComparison> compared = compare_with_maps(picture, reference, settings);
+  if (!compared) return compared.error();
+  return compared->figures;
 }
 
 }  // namespace luciole

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Figures for the difference of a picture x from a reference r. Means run over all pixels and their three channels.
 #pragma once
+#include <vector>
+
 #include "base/result.h"
 #include "image/flip.h"
 #include "image/image.h"
@@ -23,7 +25,24 @@ struct ComparisonSettings {
   float pixels_per_degree = kFlipPixelsPerDegree;
 };
 
-// Refuses pictures of different sizes, without colour, or with values that are not finite.
+// Where the differences are: one value per pixel, row 0 on top.
+struct DifferenceMaps {
+  // sqrt of the mean over channels of (x - r)^2 / (r^2 + 0.01 mean(r)^2): the mean of its square is relmse.
+  std::vector<float> relative_error;
+  std::vector<float> flip;  // flip_map; its mean is flip
+};
+
+struct MappedComparison {
+  Comparison figures;
+  DifferenceMaps maps;
+};
+
+// Refuses a picture without colour, or with values that are not finite.
+Status check_comparable(const Image& picture);
+
+// Both refuse that, too, and pictures of different sizes.
 Result<Comparison> compare(const Image& picture, const Image& reference, const ComparisonSettings& settings = {});
+Result<MappedComparison> compare_with_maps(const Image& picture, const Image& reference,
+                                           const ComparisonSettings& settings = {});
 
 }  // namespace luciole

@@ -30,6 +30,20 @@ TEST(Compare, agrees_with_figures_worked_out_by_hand) {
   EXPECT_GT(result->flip, 0);
 }
 
+TEST(Compare, maps_have_the_figures_as_their_means_and_show_where_the_error_is) {
+  const Image reference = picture(2, 1, {Vec3(1, 2, 3), Vec3(4, 2, 0)});
+  const Image other = picture(2, 1, {Vec3(1.5f, 2, 3), Vec3(3, 2, 0)});
+  const auto result = compare_with_maps(other, reference);
+  ASSERT_TRUE(result.has_value());
+  const std::vector<float>& errors = result->maps.relative_error;
+  ASSERT_EQ(errors.size(), 2u);
+  EXPECT_NEAR(errors[0], std::sqrt(0.25 / 1.04 / 3), 1e-6);
+  EXPECT_NEAR(errors[1], std::sqrt(1 / 16.04 / 3), 1e-6);
+  EXPECT_NEAR((errors[0] * errors[0] + errors[1] * errors[1]) / 2, result->figures.relmse, 1e-6);
+  ASSERT_EQ(result->maps.flip.size(), 2u);
+  EXPECT_NEAR((result->maps.flip[0] + result->maps.flip[1]) / 2, result->figures.flip, 1e-6);
+}
+
 TEST(Compare, equal_pictures_differ_by_nothing_even_if_black) {
   for (const Vec3 pixel : {Vec3(0.2f, 0.4f, 9), Vec3(0, 0, 0)}) {
     const Image image = picture(1, 1, {pixel});
