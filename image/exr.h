@@ -20,9 +20,9 @@ inline constexpr std::uint64_t kMaxExrBytes = std::uint64_t(4) << 30;  // of pix
 Status write_exr(const Image& image, const std::filesystem::path& path,
                  ExrCompression compression = ExrCompression::zip);
 
-// Reads a flat, single-part scanline file; half and integer channels become float, text attributes metadata, the data
-// window the picture. Refused with one sentence: deep, tiled, multi-part and subsampled files, more than kMaxImageSide
-// a side, more pixels than `max_bytes`, and whatever is truncated or damaged.
+// Reads a flat, single-part scanline file; half and integer channels become float, attributes that are text or a number
+// metadata, the data window the picture. Refused with one sentence: deep, tiled, multi-part and subsampled files, more
+// than kMaxImageSide a side, more pixels than `max_bytes`, and whatever is truncated or damaged.
 Result<Image> read_exr(const std::filesystem::path& path, std::uint64_t max_bytes = kMaxExrBytes);
 
 }  // namespace luciole

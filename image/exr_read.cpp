@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
-#include <cstring>
+#include <array>
+#include <charconv>
 #include <fstream>
+#include <iterator>
 #include <new>
+#include <optional>
 #include <stdexcept>
+#include <string_view>
 
 #include "image/exr.h"
 
@@ -106,6 +113,28 @@ void check_header(const Imf::Header& header, std::uint64_t file_bytes, std::uint
   }
 }
 
+// Attributes that belong to the file's own layout.
+bool is_structural(std::string_view name) {
+  constexpr std::string_view kNames[] = {
+      "type", "name", "chunkCount", "pixelAspectRatio", "screenWindowWidth", "dwaCompressionLevel"};
+  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
+template <class Number>
+std::string number_text(Number value) {
+  std::array<char, 32> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
+
+// Of text and numbers: other renderers store their times and samples as numbers.
+std::optional<std::string> text_of(const Imf::Attribute& attribute) {
+  if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute)) return text->value();
+  if (const auto* whole = dynamic_cast<const Imf::IntAttribute*>(&attribute)) return number_text(whole->value());
+  if (const auto* real = dynamic_cast<const Imf::FloatAttribute*>(&attribute)) return number_text(real->value());
+  if (const auto* real = dynamic_cast<const Imf::DoubleAttribute*>(&attribute)) return number_text(real->value());
+  return std::nullopt;
+}
+
 Image read_pixels(Imf::InputFile& file) {
   const Imf::Header& header = file.header();
   const auto& window = header.dataWindow();
@@ -121,10 +150,8 @@ Image read_pixels(Imf::InputFile& file) {
   file.setFrameBuffer(buffer);
   file.readPixels(window.min.y, window.max.y);
   for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
-    const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute());
-    // "name" and "type" belong to the file's own layout.
-    const bool structural = std::strcmp(attribute.name(), "type") == 0 || std::strcmp(attribute.name(), "name") == 0;
-    if (text != nullptr && !structural) image.metadata[attribute.name()] = text->value();
+    const std::optional<std::string> text = text_of(attribute.attribute());
+    if (text && !is_structural(attribute.name())) image.metadata[attribute.name()] = *text;
   }
   return image;
 }

@@ -80,6 +80,24 @@ TEST(Exr, gives_back_every_bit_of_every_channel_and_all_metadata) {
   EXPECT_EQ(read->metadata, written.metadata);
 }
 
+// Other renderers store times and samples as numbers. The text attribute of the sample becomes one of the same length.
+TEST(Exr, numbers_of_other_renderers_become_text) {
+  Image image = sample_image();
+  image.metadata = {{"renderSeconds", "time"}};
+  const fs::path path = kScratch / "numbers.exr";
+  ASSERT_TRUE(write_exr(image, path).has_value());
+  std::string bytes = bytes_of(path);
+  const std::string text("renderSeconds\0string\0\4\0\0\0time", 13 + 1 + 6 + 1 + 4 + 4);
+  const std::string number("renderSeconds_\0float\0\4\0\0\0\0\0\x48\x41", text.size());  // 12.5
+  const std::size_t at = bytes.find(text);
+  ASSERT_NE(at, std::string::npos);
+  write_bytes(path, bytes.replace(at, text.size(), number));
+  const Result<Image> read = read_exr(path);
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  // Nothing else: the file's own numbers (its pixel aspect ratio) tell nothing of the picture.
+  EXPECT_EQ(read->metadata, (std::map<std::string, std::string>{{"renderSeconds_", "12.5"}}));
+}
+
 TEST(Exr, equal_images_are_equal_files_and_other_ones_are_not) {
   const fs::path first = kScratch / "first.exr", second = kScratch / "second.exr";
   Image image = sample_image();
