@@ -62,4 +62,13 @@ Status OutputFile::commit() {
   return cannot_write(target_, failure.message());
 }
 
+Status write_text(const std::string& text, const fs::path& path) {
+  Result<OutputFile> file = OutputFile::create(path);
+  if (!file) return file.error();
+  if (std::fwrite(text.data(), 1, text.size(), file->stream()) != text.size()) {
+    return cannot_write(path, "the device is full or broken");
+  }
+  return file->commit();
+}
+
 }  // namespace luciole

@@ -29,6 +29,9 @@ class OutputFile {
   std::FILE* stream_ = nullptr;
 };
 
+// A whole text file.
+Status write_text(const std::string& text, const std::filesystem::path& path);
+
 // "cannot write PATH: REASON", as every writer of a file says it.
 Error cannot_write(const std::filesystem::path& path, const std::string& reason);
 

@@ -179,7 +179,7 @@ TEST_F(CommandLine, interrupted_in_its_only_frame_writes_nothing) {
 }
 
 TEST_F(CommandLine, every_command_explains_itself_with_examples) {
-  for (const char* command : {"render", "info", "make", "merge", "compare"}) {
+  for (const char* command : {"render", "info", "make", "merge", "compare", "report"}) {
     const Outcome outcome = run({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_NE(outcome.said.find("Examples:\n  luciole " + std::string(command)), std::string::npos) << outcome.said;

@@ -18,5 +18,6 @@ void add_info_command(CLI::App& program, Command& chosen);
 void add_make_command(CLI::App& program, Command& chosen);
 void add_merge_command(CLI::App& program, Command& chosen);
 void add_compare_command(CLI::App& program, Command& chosen);
+void add_report_command(CLI::App& program, Command& chosen);
 
 }  // namespace luciole

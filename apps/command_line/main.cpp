@@ -41,6 +41,7 @@ int run(int argument_count, char** arguments) {
   add_make_command(program, chosen);
   add_merge_command(program, chosen);
   add_compare_command(program, chosen);
+  add_report_command(program, chosen);
   try {
     program.parse(argument_count, arguments);
   } catch (const CLI::Success& asked_for_text) {
@@ -50,7 +51,7 @@ int run(int argument_count, char** arguments) {
   }
   if (!chosen) {
     return explain(
-        {ErrorKind::usage, "a command is needed: render, info, make, merge or compare (see luciole --help)"});
+        {ErrorKind::usage, "a command is needed: render, info, make, merge, compare or report (see luciole --help)"});
   }
   const Result<int> outcome = chosen();
   if (!outcome) return explain(outcome.error());

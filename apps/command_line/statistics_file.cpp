@@ -9,7 +9,6 @@
 #include "apps/command_line/machine.h"
 #include "apps/command_line/version.h"
 #include "base/parallel.h"
-#include "image/output_file.h"
 #include "real_time/settings_text.h"
 
 namespace luciole {
@@ -109,15 +108,6 @@ std::string statistics_json(const RunStatistics& run) {
   }
   // Names come from files: whatever is not UTF-8 in them must not stop the writing.
   return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-Status write_text(const std::string& text, const std::filesystem::path& path) {
-  Result<OutputFile> file = OutputFile::create(path);
-  if (!file) return file.error();
-  if (std::fwrite(text.data(), 1, text.size(), file->stream()) != text.size()) {
-    return cannot_write(path, "the device is full or broken");
-  }
-  return file->commit();
 }
 
 }  // namespace luciole

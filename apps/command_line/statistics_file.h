@@ -2,7 +2,6 @@
 // What a run of frames cost, as JSON: one object; times in milliseconds, memory in bytes.
 #pragma once
 #include <cstdint>
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
@@ -31,7 +30,5 @@ nlohmann::ordered_json typed_json(const std::string& text);
 
 // Instruction set, threads, processor, version and commit.
 nlohmann::ordered_json machine_json(Isa wanted);
-
-Status write_text(const std::string& text, const std::filesystem::path& path);
 
 }  // namespace luciole
