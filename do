@@ -26,8 +26,9 @@ need() {
   command -v dpkg-query > /dev/null || return 0
   local missing=() package as_root=()
   for package in $(packages_of "$@"); do
+    # A program of the package's name will do: some packages of nodejs bring npm along.
     [[ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2> /dev/null || true)" == installed ]] ||
-      missing+=("$package")
+      command -v "$package" > /dev/null || missing+=("$package")
   done
   ((${#missing[@]})) || return 0
   echo "installing: ${missing[*]}"
@@ -36,6 +37,15 @@ need() {
   "${as_root[@]}" apt-get update -qq
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -qq --no-install-recommends "${missing[@]}" > /dev/null < /dev/null
+}
+
+# What drives the browser in the test of the report's page, in the version that package-lock.json names.
+need_browser_driver() {
+  local folder=report/browser
+  [[ $folder/node_modules/.package-lock.json -nt $folder/package-lock.json ]] && return
+  command -v npm > /dev/null || return 0  # the test will say that it is skipped
+  echo "installing: playwright-core"
+  (cd "$folder" && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error)
 }
 
 # configure FOLDER OPTION...: a ninja build in FOLDER; ccache where it is installed.
@@ -85,7 +95,8 @@ run_tests() {
 }
 
 test_all() {
-  need run test
+  need run test report
+  need_browser_driver
   build_program ON
   cmake --build build
   run_tests build
