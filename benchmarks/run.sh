@@ -162,9 +162,8 @@ TEXT
   cat << 'TEXT'
 1280x720; every choice of lights gets 30 s on all cores, in whole samples of the picture; its relMSE is what was measured
 times the time taken over the time given. The reference is the mean of two renders of other random numbers, and the
-variance that their difference tells is taken off: errors are against the truth, not against the reference's noise. The
-best 95 % leave out pixels that show lamps, whose error no choice of lights changes. Clamped ranges are biased: their
-error does not fall as time passes.
+variance that their difference tells is taken off: errors are against the truth, not against the reference's noise.
+Clamped ranges are biased: their error does not fall as time passes.
 TEXT
   "$programs/equal_time_benchmark" 30,120 120 1280x720 'recipe:lamps?count=60000'
   "$programs/equal_time_benchmark" 30 60 1280x720 "${scenes[@]}"

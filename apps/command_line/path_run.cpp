@@ -13,8 +13,8 @@
 #include "apps/command_line/path_statistics.h"
 #include "apps/command_line/progress.h"
 #include "apps/command_line/stage.h"
-#include "apps/command_line/statistics_file.h"
 #include "base/parallel.h"
+#include "image/output_file.h"
 #include "offline/render.h"
 
 namespace luciole {

@@ -15,6 +15,7 @@
 #include "apps/command_line/statistics_file.h"
 #include "apps/command_line/version.h"
 #include "base/parallel.h"
+#include "image/output_file.h"
 #include "real_time/frame.h"
 #include "real_time/settings_text.h"
 #include "shot/open_shot.h"
