@@ -27,13 +27,8 @@ void CullingSampler::begin_pass(std::uint64_t pass) {
 }
 
 void CullingSampler::add_overlapping(const WalkBounds& bounds, LightRows& rows) const {
-  constexpr std::uint32_t kChunk = 256;
-  std::uint32_t lights[kChunk];
-  const SphereTree tree = tree_.tree();
-  for (TreeWalk walk(tree); !walk.done();) {
-    const std::uint32_t found = LUCIOLE_FOR_ISA(settings_.isa, overlapping_lights(tree, bounds, walk, lights, kChunk));
-    for (std::uint32_t i = 0; i < found; ++i) rows.add(lights[i], lights_.records()[lights[i]], tree_.xi(lights[i]));
-  }
+  tree_.for_each_overlapping(bounds, settings_.isa,
+                             [&](std::uint32_t light) { rows.add(light, lights_.records()[light], tree_.xi(light)); });
 }
 
 // A group shares the lights whose ranges are larger than itself: most of what overlaps one of its points then overlaps

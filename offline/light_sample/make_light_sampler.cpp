@@ -115,6 +115,30 @@ float fitted_radiance_floor(const LightSet& lights, const std::vector<Receiver>&
   return kAlmostNone;  // fewer lights than are wanted: all of them, always
 }
 
+double mean_weighed(const RangeTree& tree, const std::vector<Receiver>& receivers, Isa isa) {
+  std::uint64_t count = 0;
+  for (const Receiver& receiver : receivers) {
+    const float* p = receiver.position;
+    const WalkBounds point{{p[0], p[1], p[2]}, {p[0], p[1], p[2]}, 0, tree.block_count()};
+    tree.for_each_overlapping(point, isa, [&](std::uint32_t) { ++count; });
+  }
+  return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(receivers.size(), 1));
+}
+
+float affordable_radiance_floor(const SamplerInputs& in, float floor) {
+  constexpr std::uint64_t kProbePass = ~std::uint64_t(1);  // ranges that are not in the picture
+  constexpr int kMostSteps = 8;
+  constexpr double kCloseEnough = 1.05;
+  RangeTree tree(in.lights, in.scene_diagonal);
+  for (int step = 0; step < kMostSteps; ++step) {
+    tree.draw(in.settings.seed, kProbePass, in.settings.range_samples, floor);
+    const double excess = mean_weighed(tree, in.receivers, in.settings.isa) / kMostWeighed;
+    if (excess <= kCloseEnough) break;
+    floor *= static_cast<float>(excess);  // fewer by less than that factor: ranges only shrink with its root
+  }
+  return floor;
+}
+
 float fitted_clamp(const LightSet& lights, const std::vector<Receiver>& receivers, float radiance_floor) {
   const std::uint32_t probed = std::min(lights.size(), kMostProbed);
   if (probed == 0 || receivers.empty()) return 0.5f;
@@ -149,9 +173,10 @@ std::unique_ptr<LightSampler> make_light_sampler(const SamplerInputs& in) {
   CullingParameters parameters;
   parameters.exposure = in.settings.exposure, parameters.scene_diagonal = in.scene_diagonal;
   // [TH16] Eq. 7: alpha_i = 2 pi eps / (E I_i); floor = alpha_i I_i.
-  parameters.radiance_floor = in.settings.error_bound > 0
-                                  ? 2 * std::numbers::pi_v<float> * in.settings.error_bound / in.settings.exposure
-                                  : fitted_radiance_floor(in.lights, in.receivers, kAccepted);
+  parameters.radiance_floor =
+      in.settings.error_bound > 0
+          ? 2 * std::numbers::pi_v<float> * in.settings.error_bound / in.settings.exposure
+          : affordable_radiance_floor(in, fitted_radiance_floor(in.lights, in.receivers, kAccepted));
   if (in.settings.lights == LightChoice::clamped) {
     parameters.clamp_xi = fitted_clamp(in.lights, in.receivers, parameters.radiance_floor);
     return culling<ClampedSampler>(in, parameters);

@@ -6,6 +6,7 @@
 
 #include "offline/light_sample/light_sampler.h"
 #include "offline/light_set/light_set.h"
+#include "offline/light_tree/range_tree.h"
 
 namespace luciole {
 
@@ -25,5 +26,15 @@ float fitted_clamp(const LightSet& lights, const std::vector<Receiver>& receiver
 
 // The radiance floor that lets `wanted` lights be accepted at a receiver, on average.   [W/(m^2 sr)]
 float fitted_radiance_floor(const LightSet& lights, const std::vector<Receiver>& receivers, double wanted);
+
+// Lights that overlap a receiver in the ranges that the tree holds, on average: what a choice weighs.
+double mean_weighed(const RangeTree& tree, const std::vector<Receiver>& receivers, Isa isa);
+
+// The sphere of a range also holds lights that face away from a receiver or lie below its horizon: near strips of many
+// small triangles ten for each that is accepted.
+inline constexpr double kMostWeighed = 32;
+
+// `floor`, or a higher one with which no more than kMostWeighed are weighed for a choice, on average.
+float affordable_radiance_floor(const SamplerInputs& inputs, float floor);
 
 }  // namespace luciole

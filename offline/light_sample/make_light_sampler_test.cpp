@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "equations/cpp/double.h"
+#include "offline/light_tree/range_tree.h"
 #include "scene/recipes/recipes.h"
 
 namespace luciole {
@@ -71,6 +72,35 @@ TEST_F(FittedRanges, clamped_cost_what_random_ones_cost) {
   EXPECT_NEAR(fitted.clamped / fitted.random, 1, 0.02);
   const Accepted at_the_median = accepted(floor, 0.5);
   EXPECT_GT(std::abs(at_the_median.clamped / at_the_median.random - 1), 0.02);
+}
+
+TEST_F(FittedRanges, weigh_no_more_lights_than_asked_for) {
+  PathSettings settings;
+  settings.isa = *choose_isa(Isa::automatic);
+  const SamplerInputs inputs{*scene_, lights_, settings, receivers_, 70};
+  struct Spread {
+    double mean = 0, deviation = 0;  // from pass to pass
+  };
+  const auto weighed = [&](float floor) {
+    constexpr std::uint64_t kPasses = 16;
+    RangeTree tree(lights_, inputs.scene_diagonal);
+    double sum = 0, squares = 0;
+    for (std::uint64_t pass = 0; pass < kPasses; ++pass) {
+      tree.draw(settings.seed, pass, settings.range_samples, floor);
+      const double mean = mean_weighed(tree, receivers_, settings.isa);
+      sum += mean / kPasses, squares += mean * mean / kPasses;
+    }
+    return Spread{sum, std::sqrt(std::max(squares - sum * sum, 0.0))};
+  };
+  const float generous = fitted_radiance_floor(lights_, receivers_, 200);
+  const float fitted = affordable_radiance_floor(inputs, generous);
+  EXPECT_GT(weighed(generous).mean, 2 * kMostWeighed);
+  // It was fitted in one pass, to a twentieth.
+  const Spread found = weighed(fitted);
+  EXPECT_LT(found.mean, 1.05 * kMostWeighed + 4 * found.deviation);
+  EXPECT_GT(weighed(fitted / 2).mean, kMostWeighed) << "and was raised no more than it had to be";
+  const float modest = fitted_radiance_floor(lights_, receivers_, 4);
+  EXPECT_EQ(affordable_radiance_floor(inputs, modest), modest);
 }
 
 }  // namespace

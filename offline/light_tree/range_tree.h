@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/aligned_vector.h"
+#include "base/isa.h"
 #include "offline/light_set/light_set.h"
 #include "offline/light_tree/overlap_kernel.h"
 #include "offline/settings.h"
@@ -32,6 +33,17 @@ class RangeTree {
   void clamp_all(float xi, float radiance_floor);
 
   SphereTree tree() const;
+  // Calls use(light) for each light whose range of this pass touches the box.
+  template <class Use>
+  void for_each_overlapping(const WalkBounds& bounds, Isa isa, const Use& use) const {
+    constexpr std::uint32_t kChunk = 256;
+    std::uint32_t lights[kChunk];
+    const SphereTree spheres = tree();
+    for (TreeWalk walk(spheres); !walk.done();) {
+      const std::uint32_t found = LUCIOLE_FOR_ISA(isa, overlapping_lights(spheres, bounds, walk, lights, kChunk));
+      for (std::uint32_t i = 0; i < found; ++i) use(lights[i]);
+    }
+  }
   std::uint32_t block_count() const { return block_count_[0]; }  // of level 0
   // Before this block of level 0 all lights have ranges of at least `range`, from it on less than twice that.
   std::uint32_t first_block_below(float range) const;
