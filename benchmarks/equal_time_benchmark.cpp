@@ -95,15 +95,7 @@ Errors errors_of(const Image& image, const Reference& reference) {
 }
 
 void print_scene(const std::string& name, const Job& job, std::uint32_t bounces) {
-  Stage stage = open_stage(name, {});
-  auto scene = std::make_shared<Scene>(*stage.scene);
-  for (const PunctualLight& light : stage.primaries) {
-    const auto same = [&](const PunctualLight& other) {
-      return length(other.position - light.position) == 0 && length(other.intensity - light.intensity) == 0;
-    };
-    if (std::none_of(scene->lights.begin(), scene->lights.end(), same)) scene->lights.push_back(light);
-  }
-  stage.scene = scene;
+  const Stage stage = with_primaries(open_stage(name, {}));
   PathSettings settings;
   settings.exposure = stage.settings.exposure, settings.bounces = bounces;
   (void)path_setting_table().set(settings, "size", job.size);

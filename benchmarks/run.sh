@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Remakes docs/results: benchmarks/run.sh [culling|baselines|speed|kernel|scaling|steadiness|filter|memory|light_choice|
-# ray_rate|equal_time|pbrt ...], all without arguments (equal_time alone takes an hour; pbrt only where $PBRT
-# names that program). Builds into $BUILD (default: build). Shots of files take part where $LUCIOLE_SCENES names their folder.
+# variance_parts|ray_rate|equal_time|pbrt ...], all without arguments (equal_time alone takes an hour; pbrt only where
+# $PBRT names that program). Builds into $BUILD (default: build). Shots of files take part where $LUCIOLE_SCENES names their folder.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${BUILD:-build} results=docs/results
@@ -175,6 +175,12 @@ ray_rate() {
   "$programs/ray_rate_benchmark" 'recipe:lamps?count=60000' "${shots[@]}"
 }
 
+variance_parts() {
+  local scenes=('recipe:lamps?count=5000' 'recipe:lamps?count=60000' 'recipe:lamps?count=60000&glossy=0.15')
+  has_scenes && scenes+=(lost-empire sports-car)
+  "$programs/variance_parts_benchmark" "${scenes[@]}"
+}
+
 # Against pbrt-v4 where $PBRT names its program: the same scene, which `luciole make` writes for it.
 pbrt() {
   local count bounces seconds samples tree_error pbrt_error
@@ -222,11 +228,12 @@ pbrt_row() {
 }
 
 pages=("$@")
-((${#pages[@]})) || pages=(speed memory kernel filter scaling steadiness culling baselines light_choice ray_rate equal_time)
+((${#pages[@]})) || pages=(speed memory kernel filter scaling steadiness culling baselines light_choice variance_parts
+  ray_rate equal_time)
 [[ -n ${PBRT:-} ]] && ((! $#)) && pages+=(pbrt)
 for name in "${pages[@]}"; do
   case $name in
-    speed | memory | kernel | filter | ray_rate | equal_time | pbrt) page "$name" "$name" ;;
+    speed | memory | kernel | filter | variance_parts | ray_rate | equal_time | pbrt) page "$name" "$name" ;;
     scaling | steadiness | culling | baselines | light_choice) page "$name" "$programs/${name}_benchmark" ;;
     *)
       echo "run.sh: no page '$name'" >&2

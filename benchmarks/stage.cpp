@@ -47,6 +47,18 @@ Stage open_stage(const std::string& name, const std::vector<SettingText>& overri
   return stage;
 }
 
+Stage with_primaries(Stage stage) {
+  auto scene = std::make_shared<Scene>(*stage.scene);
+  for (const PunctualLight& light : stage.primaries) {
+    const auto same = [&](const PunctualLight& other) {
+      return length(other.position - light.position) == 0 && length(other.intensity - light.intensity) == 0;
+    };
+    if (std::none_of(scene->lights.begin(), scene->lights.end(), same)) scene->lights.push_back(light);
+  }
+  stage.scene = scene;
+  return stage;
+}
+
 PreparedStage prepare_stage(const std::string& name, const std::vector<SettingText>& overrides) {
   PreparedStage stage;
   static_cast<Stage&>(stage) = open_stage(name, overrides);

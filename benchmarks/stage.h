@@ -31,6 +31,9 @@ struct Stage {
 //   overrides   win over the shot's settings
 Stage open_stage(const std::string& name, const std::vector<SettingText>& overrides);
 
+// With the shot's primary lights among the scene's own, where the path tracer looks for them.
+Stage with_primaries(Stage stage);
+
 // Geometry buffer and virtual point lights of a stage.
 struct PreparedStage : Stage {
   GeometryBuffer geometry;

@@ -23,8 +23,10 @@ constexpr double kLargestFeature = Film::kLargestFeature;
 constexpr std::size_t kGrain = 4096;  // [pixels]
 constexpr auto kSquares = Film::kSquares, kAlbedo = Film::kAlbedo, kNormal = Film::kNormal;
 
-// Sums of radiance never fall. One that is full stays full: min(a + b, full) is associative for a, b >= 0.
-std::int64_t add_up_to_full(std::int64_t a, std::int64_t b) { return a > kFull - b ? kFull : a + b; }
+// A sum that is full stays full: min(a + b, full) is associative for a, b >= 0.
+std::int64_t add_up_to_full(std::int64_t a, std::int64_t b) {
+  return a == kFull || b == kFull || (b > 0 && a > kFull - b) ? kFull : a + b;
+}
 
 // To nearest. The library's llrint is a call, because it may report errors.
 std::int64_t steps(double value, double steps_per_unit) { return _mm_cvtsd_si64(_mm_set_sd(value * steps_per_unit)); }
@@ -42,7 +44,7 @@ bool add_sample(Film::Pixel& sums, const FilmSample& sample, double exposure) {
   for (std::size_t i = 0; i < 3; ++i) {
     // One channel that is not finite makes a wrong colour: all three go.
     const double asked = finite ? radiance[i] * exposure : 0;
-    const double value = std::clamp(asked, 0.0, kLargestValue);
+    const double value = std::clamp(asked, -kLargestValue, kLargestValue);
     whole = whole && value == asked;
     sums[i] = add_up_to_full(sums[i], steps(value, kValueSteps));
     const double square = std::min(value * value, kLargestSquare);
@@ -60,13 +62,13 @@ bool add_sample(Film::Pixel& sums, const FilmSample& sample, double exposure) {
 // [display units]
 double mean(const Film::Pixel& sums, std::size_t i, double count) { return double(sums[i]) / (count * kValueSteps); }
 
-// Of the mean of `count` samples, two at least [display units^2]. Values are not negative, so it is at most mean^2;
-// where the sum of squares is full, that is all that is known.
+// Of the mean of `count` samples, two at least [display units^2]. Where the sum of squares is full, all that is known
+// is that values are hardly ever negative: then it is at most mean^2.
 double variance_of_mean(const Film::Pixel& sums, std::size_t i, double count) {
   const double m = mean(sums, i, count);
   if (sums[kSquares + i] == kFull) return m * m;
   const double mean_square = double(sums[kSquares + i]) / (count * kSquareSteps);
-  return std::clamp((mean_square - m * m) / (count - 1), 0.0, m * m);
+  return std::max((mean_square - m * m) / (count - 1), 0.0);
 }
 
 float to_float(double value) {

@@ -34,9 +34,11 @@ class Film {
   static constexpr std::uint64_t kMostSamples = std::uint64_t(1) << 30;
 
   // exposure: display value per radiance. Sums count steps of 2^-28 (squares 2^-20) display units, whatever the
-  // exposure is; albedo and normal 2^-28, up to 16. A single sample is clipped at 2^30 display units and at 0 and
-  // dropped, as zero, where it is not finite: both are counted. A pixel whose samples sum to more than 2^35 display
-  // units stays there; one whose squares sum to more than 2^43 has no estimate of its variance but its bound, mean^2.
+  // exposure is; albedo and normal 2^-28, up to 16. A single sample is clipped at 2^30 display units to both sides and
+  // dropped, as zero, where it is not finite: both are counted. Samples may be negative, where the colour of one light
+  // is set right by those of others (ChosenLight::colour_apart). A pixel whose samples sum to more than 2^35 display
+  // units stays there (which of several splits gets it there may differ by its negative samples alone); one whose
+  // squares sum to more than 2^43 has no estimate of its variance but its bound, mean^2.
   Film(std::uint32_t width, std::uint32_t height, float exposure, std::uint64_t first_sample = 0);
 
   std::uint32_t width() const { return width_; }

@@ -131,8 +131,8 @@ TEST(Film, merging_refuses_gaps_overlaps_and_other_pictures) {
 }
 
 TEST(Film, samples_that_do_not_fit_are_counted_and_do_little_harm) {
-  const float bad[] = {kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN(), -1, 2e9f};
-  const float kept[] = {0, 0, 0, 0, 0x1p30f};
+  const float bad[] = {kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN(), -2e9f, 2e9f};
+  const float kept[] = {0, 0, 0, -0x1p30f, 0x1p30f};
   for (int i = 0; i < 5; ++i) {
     Film film(2, 1, 1);
     film.add({{Vec3(1, bad[i], 1), Vec3(0, 0, 0), Vec3(0, 0, 0)}, {Vec3(3, 3, 3), Vec3(0, 0, 0), Vec3(0, 0, 0)}});
@@ -143,6 +143,18 @@ TEST(Film, samples_that_do_not_fit_are_counted_and_do_little_harm) {
     EXPECT_EQ(image.channels.at("G")[1], 3.0f);
   }
   EXPECT_EQ(constant_film(2, 1, 1, Vec3(0x1p30f, 0, 1), 1).saturated(), 0u);  // the largest that fits
+}
+
+TEST(Film, negative_samples_count_as_they_are) {
+  Film film = constant_film(1, 1, 1, Vec3(-3, -3, -1), 1);
+  film.add({{Vec3(5, 3, -1), Vec3(0, 0, 0), Vec3(0, 0, 0)}});
+  EXPECT_EQ(film.saturated(), 0u);
+  const Image image = film.image({"variance"});
+  EXPECT_EQ(image.channels.at("R")[0], 1.0f);
+  EXPECT_EQ(image.channels.at("G")[0], 0.0f);
+  EXPECT_EQ(image.channels.at("B")[0], -1.0f);
+  EXPECT_EQ(image.channels.at("variance.R")[0], 16.0f);  // (4^2 + 4^2) / 2 / (2 - 1)
+  EXPECT_EQ(image.channels.at("variance.G")[0], 9.0f);
 }
 
 TEST(Film, features_that_are_no_numbers_are_dropped) {

@@ -27,8 +27,9 @@ void CullingSampler::begin_pass(std::uint64_t pass) {
 }
 
 void CullingSampler::add_overlapping(const WalkBounds& bounds, LightRows& rows) const {
-  tree_.for_each_overlapping(bounds, settings_.isa,
-                             [&](std::uint32_t light) { rows.add(light, lights_.records()[light], tree_.xi(light)); });
+  tree_.for_each_overlapping(bounds, settings_.isa, [&](std::uint32_t light) {
+    rows.add(light, lights_.records()[light], lights_.tint(light), tree_.xi(light));
+  });
 }
 
 // A group shares the lights whose ranges are larger than itself: most of what overlaps one of its points then overlaps
@@ -109,7 +110,7 @@ ChosenLight ListSampler::choose(const Receiver& receiver, Candidates& candidates
       f32::random_words(static_cast<std::uint32_t>(u * 0x1p32), 0, std::bit_cast<std::uint32_t>(receiver.position[0]),
                         std::bit_cast<std::uint32_t>(receiver.position[1]));
   weigh_in_chunks(candidates.rows, receiver, weighing(),
-                  [&](const std::uint32_t* lights, const float* weights, std::uint32_t count) {
+                  [&](const std::uint32_t* lights, const Vec3*, const float* weights, std::uint32_t count) {
                     for (std::uint32_t i = 0; i < count; ++i) {
                       if (!(weights[i] > 0)) continue;
                       std::uint32_t place = memory.listed;
@@ -125,7 +126,7 @@ ChosenLight ListSampler::choose(const Receiver& receiver, Candidates& candidates
                     }
                   });
   WeightedChoice choice(u);
-  choice.add(memory.light.data(), memory.weight.data(), memory.listed);
+  choice.add(memory.light.data(), nullptr, memory.weight.data(), memory.listed);
   memory.total_weight = choice.total();
   ChosenLight chosen = choice.chosen();
   chosen.pmf *= std::min(static_cast<float>(k) / static_cast<float>(std::max(memory.overlapping, 1u)), 1.0f);

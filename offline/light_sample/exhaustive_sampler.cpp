@@ -6,7 +6,7 @@
 namespace luciole {
 
 ExhaustiveSampler::ExhaustiveSampler(const LightSet& lights, Isa isa) : lights_(lights), isa_(isa) {
-  for (std::uint32_t i = 0; i < lights.size(); ++i) all_.add(i, lights.records()[i], 0);
+  for (std::uint32_t i = 0; i < lights.size(); ++i) all_.add(i, lights.records()[i], lights.tint(i), 0);
 }
 
 ChosenLight ExhaustiveSampler::choose(const Receiver& receiver, Candidates&, double u, ChoiceMemory& memory) const {

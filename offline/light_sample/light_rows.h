@@ -34,20 +34,22 @@ inline LightRowValues row_values(const LightRecord& light, float xi) {
 
 class LightRows {
  public:
-  void clear() { lights_.clear(); }
+  void clear() { lights_.clear(), tints_.clear(); }
   // Forgets all but the first `count` lights.
-  void shorten(std::uint32_t count) { lights_.resize(count); }
-  // xi: of the light in this pass; 0 where no range counts.
-  void add(std::uint32_t light, const LightRecord& record, float xi) {
+  void shorten(std::uint32_t count) { lights_.resize(count), tints_.resize(count); }
+  //   tint  as LightSet::tint
+  //   xi    of the light in this pass; 0 where no range counts
+  void add(std::uint32_t light, const LightRecord& record, Vec3 tint, float xi) {
     const std::size_t at = lights_.size();
     if (at >= rows_[0].size()) grow();
-    lights_.push_back(light);
+    lights_.push_back(light), tints_.push_back(tint);
     const LightRowValues values = row_values(record, xi);
     for (std::size_t r = 0; r < LightRowsView::kRows; ++r) rows_[r][at] = values[r];
   }
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(lights_.size()); }
   const std::uint32_t* lights() const { return lights_.data(); }
+  const Vec3* tints() const { return tints_.data(); }
   // `count` lights from `first` on; first is a multiple of 16.
   LightRowsView view(std::uint32_t first, std::uint32_t count) const {
     LightRowsView view;
@@ -56,7 +58,8 @@ class LightRows {
     return view;
   }
   std::uint64_t memory_bytes() const {
-    return rows_[0].size() * sizeof(float) * LightRowsView::kRows + lights_.capacity() * sizeof(std::uint32_t);
+    return rows_[0].size() * sizeof(float) * LightRowsView::kRows +
+           lights_.capacity() * (sizeof(std::uint32_t) + sizeof(Vec3));
   }
 
  private:
@@ -70,6 +73,7 @@ class LightRows {
 
   std::array<AlignedVector<float>, LightRowsView::kRows> rows_;
   std::vector<std::uint32_t> lights_;
+  std::vector<Vec3> tints_;
 };
 
 }  // namespace luciole

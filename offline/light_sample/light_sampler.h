@@ -26,6 +26,9 @@ struct ChosenLight {
   std::uint32_t light = kNoLight;  // kNoLight: the estimate of this point is 0
   float pmf = 0;                   // probability of the choice, given that the light overlaps
   std::uint32_t weighed = 0;       // lights that were looked at
+  // Sum over all weighed lights of weight * tint, less that as it would be if all had the chosen one's: 0 on average
+  // over the choice, and about what the colour of one light says wrongly of all. 0 where a sampler does not weigh all.
+  Vec3 colour_apart{0, 0, 0};
 };
 
 // A point on a light, as its sampler needs it to be known.

@@ -14,7 +14,7 @@ struct Weighing {
   Isa isa = Isa::baseline;  // resolved
 };
 
-// Calls use(lights, weights, count) for all lights of the rows, a chunk at a time.
+// Calls use(lights, tints, weights, count) for all lights of the rows, a chunk at a time.
 template <class Use>
 void weigh_in_chunks(const LightRows& rows, const Receiver& receiver, const Weighing& how, const Use& use) {
   constexpr std::uint32_t kChunk = 256;
@@ -22,7 +22,7 @@ void weigh_in_chunks(const LightRows& rows, const Receiver& receiver, const Weig
   for (std::uint32_t first = 0; first < rows.size(); first += kChunk) {
     const LightRowsView view = rows.view(first, rows.size() - first < kChunk ? rows.size() - first : kChunk);
     LUCIOLE_FOR_ISA(how.isa, weigh_lights(view, receiver, how.weight, how.radiance_floor, weights));
-    use(rows.lights() + first, weights, view.count);
+    use(rows.lights() + first, rows.tints() + first, weights, view.count);
   }
 }
 
@@ -45,12 +45,14 @@ class WeightedChoice {
 
   void add(const LightRows& rows, const Receiver& receiver, const Weighing& how) {
     weigh_in_chunks(rows, receiver, how,
-                    [this](const std::uint32_t* lights, const float* weights, std::uint32_t count) {
-                      add(lights, weights, count);
+                    [this](const std::uint32_t* lights, const Vec3* tints, const float* weights, std::uint32_t count) {
+                      for (std::uint32_t k = 0; k < count; ++k) colour_ += tints[k] * weights[k];
+                      add(lights, tints, weights, count);
                     });
   }
 
-  void add(const std::uint32_t* lights, const float* weights, std::uint32_t count) {
+  // tints: none for lists, whose lights then count as white.
+  void add(const std::uint32_t* lights, const Vec3* tints, const float* weights, std::uint32_t count) {
     float chunk = 0;
     for (std::uint32_t k = 0; k < count; ++k) chunk += weights[k];
     weighed_ += count;
@@ -67,6 +69,7 @@ class WeightedChoice {
     for (std::uint32_t k = 0; k < count; ++k) {
       if (!(weights[k] > 0)) continue;
       light_ = lights[k], weight_ = weights[k];  // the last one with weight, should rounding run past the end
+      if (tints != nullptr) tint_ = tints[k];
       if (wanted < weights[k]) break;
       wanted -= weights[k];
     }
@@ -75,13 +78,15 @@ class WeightedChoice {
 
   float total() const { return static_cast<float>(total_); }
   ChosenLight chosen() const {
-    return {light_, light_ == kNoLight ? 0.0f : static_cast<float>(weight_ / total_), weighed_};
+    if (light_ == kNoLight) return {kNoLight, 0, weighed_};
+    return {light_, static_cast<float>(weight_ / total_), weighed_, colour_ - tint_ * static_cast<float>(total_)};
   }
 
  private:
   double u_, total_ = 0;
   std::uint32_t light_ = kNoLight, weighed_ = 0;
   float weight_ = 0;
+  Vec3 colour_{0, 0, 0}, tint_{0, 0, 0};  // sum of tints by weight; the chosen one's
 };
 
 }  // namespace luciole

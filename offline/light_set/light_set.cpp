@@ -79,26 +79,33 @@ float directional_factor(const LightRecord& light, float cos_axis) {
 }
 
 LightSet::LightSet(const Scene& scene) : light_of_triangle_(scene.meshes.size()) {
-  std::vector<LightRecord> unsorted;
+  struct Unsorted {
+    LightRecord record;
+    Vec3 colour;
+  };
+  std::vector<Unsorted> unsorted;
+  const auto keep = [&](const LightRecord& record, Vec3 colour) {
+    if (record.intensity > 0 && std::isfinite(record.intensity)) unsorted.push_back({record, colour});
+  };
   for (const EmissiveTriangle& triangle : emissive_triangles(scene)) {
-    const LightRecord record = triangle_record(scene, triangle);
-    if (record.intensity > 0 && std::isfinite(record.intensity)) unsorted.push_back(record);
+    keep(triangle_record(scene, triangle), triangle.radiance);
   }
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     if (scene.lights[i].kind == PunctualLight::Kind::directional) continue;
-    const LightRecord record = lamp_record(scene.lights[i], i);
-    if (record.intensity > 0 && std::isfinite(record.intensity)) unsorted.push_back(record);
+    keep(lamp_record(scene.lights[i], i), scene.lights[i].intensity);
   }
   Bounds box;
-  for (const LightRecord& record : unsorted) box.grow(record.centre());
+  for (const Unsorted& light : unsorted) box.grow(light.record.centre());
   std::vector<std::pair<std::uint32_t, std::uint32_t>> order;  // (place on the curve, index)
   order.reserve(unsorted.size());
-  for (std::uint32_t i = 0; i < unsorted.size(); ++i) order.emplace_back(curve_place(box, unsorted[i].centre()), i);
+  for (std::uint32_t i = 0; i < unsorted.size(); ++i) {
+    order.emplace_back(curve_place(box, unsorted[i].record.centre()), i);
+  }
   std::sort(order.begin(), order.end());
-  records_.resize(unsorted.size());
+  records_.resize(unsorted.size()), tints_.resize(unsorted.size());
   for (std::uint32_t place = 0; place < order.size(); ++place) {
-    const LightRecord& record = unsorted[order[place].second];
-    records_[place] = record;
+    const auto& [record, colour] = unsorted[order[place].second];
+    records_[place] = record, tints_[place] = colour / channel_mean(colour);
     if (record.lamp > 0) continue;
     std::vector<std::uint32_t>& lights = light_of_triangle_[record.mesh];
     if (lights.empty()) lights.assign(scene.meshes[record.mesh].indices.size() / 3, kNoLight);
@@ -107,7 +114,7 @@ LightSet::LightSet(const Scene& scene) : light_of_triangle_(scene.meshes.size())
 }
 
 std::uint64_t LightSet::memory_bytes() const {
-  std::uint64_t bytes = records_.size() * sizeof(LightRecord);
+  std::uint64_t bytes = records_.size() * (sizeof(LightRecord) + sizeof(Vec3));
   for (const std::vector<std::uint32_t>& lights : light_of_triangle_) bytes += lights.size() * sizeof(std::uint32_t);
   return bytes;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/aligned_vector.h"
+#include "base/vector.h"
 #include "scene/scene.h"
 
 namespace luciole {
@@ -43,6 +44,8 @@ class LightSet {
   explicit LightSet(const Scene& scene);
 
   const AlignedVector<LightRecord>& records() const { return records_; }
+  // Colour of a light's intensity over the mean of its channels: their mean is 1.
+  Vec3 tint(std::uint32_t light) const { return tints_[light]; }
   std::uint32_t size() const { return static_cast<std::uint32_t>(records_.size()); }
   // The light of a triangle; kNoLight if it does not shine.
   std::uint32_t light_of(std::uint32_t mesh, std::uint32_t triangle) const {
@@ -53,6 +56,7 @@ class LightSet {
 
  private:
   AlignedVector<LightRecord> records_;
+  std::vector<Vec3> tints_;
   std::vector<std::vector<std::uint32_t>> light_of_triangle_;  // by mesh; empty where none of its triangles shines
 };
 

@@ -30,6 +30,7 @@ struct PathContext {
   const CameraRays& camera;
   const VisibleEmitters& visible;
   const PathSettings& settings;
+  float visible_share = 0;  // of shadow rays, about
   std::uint64_t sample = 0;
 };
 
@@ -103,5 +104,9 @@ class PathBatch {
 
 // The surface point as samplers of lights see it.
 Receiver receiver_of(const SurfacePoint& point, Vec3 to_eye);
+
+// To be added to the light of one chosen lamp, visible or not: 0 on average over the choice, so that the mean stays,
+// and opposite to the error that its colour makes where the others' differ. A control variate.   [W/(m^2 sr)]
+Vec3 colour_correction(const SurfacePoint& point, const ChosenLight& chosen, float visible_share);
 
 }  // namespace luciole

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "offline/light_sample/light_point.h"
 #include "offline/path/bsdf.h"
 #include "offline/path/path_batch.h"
 #include "offline/path/sample_sequence.h"
@@ -64,6 +65,34 @@ std::vector<Receiver> probe_receivers(const RayScene& rays, const CameraRays& ca
   arrive(rays, probes, receivers);
   if (settings.bounces > 1) arrive(rays, probes, receivers);
   return receivers;
+}
+
+float visible_share(const RayScene& rays, const LightSet& lights, LightSampler& sampler,
+                    const std::vector<Receiver>& receivers) {
+  constexpr std::uint64_t kProbePass = ~std::uint64_t(2);  // ranges that are not in the picture
+  if (receivers.empty() || lights.size() == 0) return 0;
+  sampler.begin_pass(kProbePass);
+  Candidates candidates;
+  ChoiceMemory memory;
+  std::uint32_t chosen_lights = 0, visible = 0;
+  for (std::uint32_t i = 0; i < receivers.size(); ++i) {
+    const Receiver& receiver = receivers[i];
+    SampleSequence numbers(kProbeSeed, 1, i);
+    sampler.share_candidates(&receiver, 1, candidates);
+    const ChosenLight chosen = sampler.choose(receiver, candidates, numbers.pair_of_words().first * 0x1p-32, memory);
+    if (chosen.light == kNoLight) continue;
+    ++chosen_lights;
+    const Vec3 position(receiver.position[0], receiver.position[1], receiver.position[2]);
+    const Vec3 normal(receiver.geometric_normal[0], receiver.geometric_normal[1], receiver.geometric_normal[2]);
+    const LightPoint light = sample_light_point(rays.scene(), lights.records()[chosen.light], position, numbers.pair());
+    if (!(light.pdf > 0) || !(sampler.acceptance(chosen.light, light.place) > 0)) continue;
+    const Vec3 from = rays.offset_from_surface(position, normal);
+    RayPacket packet;
+    for (int lane = 0; lane < kPacketRays; ++lane) packet.skip(lane);
+    packet.set(0, from, rays.offset_from_surface(light.position, light.normal) - from, 0, 1);
+    if ((rays.occluded(packet, Coherence::incoherent) & 1u) == 0) ++visible;
+  }
+  return chosen_lights == 0 ? 0.0f : static_cast<float>(visible) / static_cast<float>(chosen_lights);
 }
 
 float distance_at_centre(const RayScene& rays, const Camera& camera) {

@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "offline/light_sample/weigh_kernel.h"
+#include "offline/light_sample/light_sampler.h"
 #include "offline/path/camera_rays.h"
 #include "ray_tracing/ray_scene.h"
 
@@ -11,6 +11,10 @@ namespace luciole {
 
 // Up to 512 surface points that the camera sees, and with more than one bounce those that they see.
 std::vector<Receiver> probe_receivers(const RayScene& rays, const CameraRays& camera, const PathSettings& settings);
+
+// The share of them from which one light, chosen as `sampler` does, is visible.
+float visible_share(const RayScene& rays, const LightSet& lights, LightSampler& sampler,
+                    const std::vector<Receiver>& receivers);
 
 // How far away the picture's centre is along the view [m]; the scene's size where nothing is.
 float distance_at_centre(const RayScene& rays, const Camera& camera);
