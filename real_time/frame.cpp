@@ -75,6 +75,12 @@ void time_shading(const ShadingOutputs& shaded, double wall_ms, FrameStatistics&
   statistics.evaluations_per_second = pairs / std::max(wall_ms * 1e-3, 1e-9);
 }
 
+bool is_same_view(const Camera& a, const Camera& b) {
+  const auto same = [](Vec3 u, Vec3 v) { return u.x == v.x && u.y == v.y && u.z == v.z; };
+  return same(a.eye, b.eye) && same(a.right, b.right) && same(a.up, b.up) && same(a.forward, b.forward) &&
+         a.vertical_fov == b.vertical_fov;
+}
+
 }  // namespace
 
 // What frames of an unmoved camera and unmoved lights have in common.
@@ -91,7 +97,7 @@ struct Renderer::State {
 
   const View* view(std::uint64_t frame_index);  // none after Ctrl-C
   bool render_view(std::uint64_t frame_index, View& made);
-  float constant_xi(const View& seen, const ManyLights& many_lights, const FrameKey& key);
+  float constant_xi(const View& seen, const ManyLights& many_lights);
   ShadingOutputs shade_lights(const View& seen, std::uint64_t frame_index, const std::vector<std::string>& layers,
                               Frame& frame, Prediction& prediction);
 
@@ -154,7 +160,7 @@ struct Reached {
 };
 
 // The xi that all lights share; negative: each draws its own.
-float Renderer::State::constant_xi(const View& seen, const ManyLights& many_lights, const FrameKey& key) {
+float Renderer::State::constant_xi(const View& seen, const ManyLights& many_lights) {
   switch (settings.ranges) {
     case Ranges::infinite:
       return 0.0f;
@@ -162,7 +168,9 @@ float Renderer::State::constant_xi(const View& seen, const ManyLights& many_ligh
       return 0.5f / static_cast<float>(std::max<std::size_t>(1, seen.vpls.size() + many_lights.size()));
     case Ranges::clamped: {
       if (clamped) return *clamped;
-      const Reached reached(seen, many_lights, range_parameters(settings, camera, key, -1.0f), settings);
+      // Of frame 0, whichever is rendered first: a frame alone is the same as in a sequence.
+      const ManyLights of_first = make_many_lights(rays.scene(), primaries, settings, 0);
+      const Reached reached(seen, of_first, range_parameters(settings, camera, {settings.seed, 0}, -1.0f), settings);
       clamped = clamped_xi({seen.geometry, reached.diffuse, reached.glossy, reached.many, settings});
       return *clamped;
     }
@@ -179,7 +187,7 @@ ShadingOutputs Renderer::State::shade_lights(const View& seen, std::uint64_t fra
   const ManyLights many_lights = make_many_lights(rays.scene(), primaries, settings, frame_index);
   timer.end("many_lights");
   const FrameKey key{settings.seed, frame_index};
-  const Reached reached(seen, many_lights, range_parameters(settings, camera, key, constant_xi(seen, many_lights, key)),
+  const Reached reached(seen, many_lights, range_parameters(settings, camera, key, constant_xi(seen, many_lights)),
                         settings);
   timer.end("light_range");
   frame.statistics.virtual_point_lights = seen.vpls.size();
@@ -249,6 +257,7 @@ Result<Frame> Renderer::render(std::uint64_t frame_index, const std::vector<std:
 }
 
 void Renderer::set_camera(const Camera& camera) {
+  if (is_same_view(state_->camera, camera)) return;
   state_->camera = camera;
   state_->cached.reset();
   state_->clamped.reset();

@@ -46,7 +46,7 @@ struct Frame {
   FrameStatistics statistics;
 };
 
-// Scene, camera and lights are fixed; frames differ by their index (new ranges, offsets, and samples with jitter).
+// Scene and lights are fixed; frames differ by their index (new ranges, offsets, and samples with jitter) and camera.
 class Renderer {
  public:
   // Names of the layers that `render` can give: direct, indirect, indirect_from_diffuse, indirect_from_glossy,
@@ -59,6 +59,7 @@ class Renderer {
                                  const Settings& settings);
   Result<Frame> render(std::uint64_t frame_index, const std::vector<std::string>& layers = {});
 
+  // Of the frames from now on. What was kept of the last view is made anew where this one is another.
   void set_camera(const Camera& camera);
   const Settings& settings() const;
   double bvh_build_ms() const;

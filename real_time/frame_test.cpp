@@ -176,6 +176,26 @@ TEST(Frame, has_the_same_bits_on_any_number_of_threads) {
   EXPECT_TRUE(same_bits(one, three));
 }
 
+// What is kept of one view must not be seen in another: geometry, direct light, the constant of clamped ranges.
+TEST(Frame, of_a_moving_camera_is_the_frame_that_this_camera_gives_alone) {
+  const Stage first = stage("recipe:cornell?glossy=0.1&panel=5");
+  for (const Ranges ranges : {Ranges::stochastic, Ranges::clamped}) {
+    Settings settings = small_settings();
+    settings.filter = Filter::bilateral, settings.ranges = ranges;
+    Result<Renderer> moving = Renderer::create(first.scene, first.camera, first.primaries, settings);
+    std::vector<Vec3> last;
+    for (std::uint64_t frame = 0; frame < 3; ++frame) {
+      Stage moved = first;
+      moved.camera.eye = moved.camera.eye + moved.camera.right * (0.1f * static_cast<float>(frame));
+      moving->set_camera(moved.camera);
+      const std::vector<Vec3> in_sequence = moving->render(frame)->picture;
+      EXPECT_TRUE(same_bits(in_sequence, picture(moved, settings, frame))) << to_string(ranges) << ", " << frame;
+      EXPECT_FALSE(same_bits(in_sequence, last));
+      last = in_sequence;
+    }
+  }
+}
+
 TEST(Frame, of_odd_sizes_and_few_lights_renders) {
   const Stage scene = stage("recipe:cornell");
   for (const auto& [width, height, vpls] :

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scene/file_access.h"
+#include "shot/read_camera.h"
 #include "shot/table_reader.h"
 
 namespace luciole {
@@ -15,15 +16,6 @@ constexpr NumberLimits kAny{};
 constexpr NumberLimits kNotNegative{.low = 0};
 
 float radians(float degrees) { return degrees * (std::numbers::pi_v<float> / 180); }
-
-Camera read_camera(TableReader camera) {
-  const Vec3 eye = camera.required("eye", camera.vector("eye", kAny));
-  const Vec3 target = camera.required("target", camera.vector("target", kAny));
-  const float degrees =
-      camera.number("vertical_fov_degrees", {.low = 0, .high = 175, .above_low = true}).value_or(60.0f);
-  camera.refuse_unknown_keys();
-  return look_at(eye, target, radians(degrees));
-}
 
 // Where a sun or a spot shines to: its target as seen from its position, or a direction.
 Vec3 read_direction(TableReader& light, std::optional<Vec3> position) {
@@ -94,7 +86,9 @@ Result<Shot> read_table(const toml::table& table, const std::string& name) {
   Shot shot;
   shot.scene = file.required("scene", file.text("scene"));
   shot.scale = file.number("scale", {.low = 0, .above_low = true}).value_or(1.0f);
-  if (const toml::table* camera = file.table("camera")) shot.camera = read_camera(inner(*camera, "[camera]"));
+  shot.frames_per_second =
+      file.number("frames_per_second", {.low = 0, .high = 1000, .above_low = true}).value_or(shot.frames_per_second);
+  if (const toml::table* camera = file.table("camera")) read_camera(*camera, name, fault, shot);
   for (const toml::table* light : file.tables("primary")) {
     shot.primary.push_back(read_primary(inner(*light, "[[primary]]")));
   }

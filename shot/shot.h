@@ -10,6 +10,7 @@
 
 #include "base/result.h"
 #include "scene/scene.h"
+#include "shot/camera_path.h"
 
 namespace luciole {
 
@@ -21,10 +22,12 @@ struct MaterialOverride {
 };
 
 struct Shot {
-  std::string scene;                   // "recipe:ring?alpha=0.1", or a file relative to the folders of scenes
-  float scale = 1;                     // metres per unit of the file; everything below is in metres already
-  std::optional<Camera> camera;        // none: the scene's first camera, or one that frames it
-  std::vector<PunctualLight> primary;  // none: the scene's strongest punctual lights
+  std::string scene;                      // "recipe:ring?alpha=0.1", or a file relative to the folders of scenes
+  float scale = 1;                        // metres per unit of the file; everything below is in metres already
+  float frames_per_second = 30;           // frame k is at the time k / frames_per_second [s]
+  std::optional<Camera> camera;           // of frame 0; none: the scene's first camera, or one that frames it
+  std::optional<CameraPath> camera_path;  // of all frames; none: the camera rests
+  std::vector<PunctualLight> primary;     // none: the scene's strongest punctual lights
   std::vector<MaterialOverride> materials;
   std::optional<Vec3> environment;  // radiance of a constant sky [W/(m^2 sr)]
   // [settings] but `environment`, as text; each renderer knows which names and values are valid.

@@ -77,6 +77,47 @@ TEST_F(CommandLine, accumulating_gives_the_mean_of_the_frames_and_their_variance
   EXPECT_EQ(nlohmann::json::parse(content(folder_ / "out/mean.json"))["frames"].size(), 3u);
 }
 
+// A shot whose camera moves a metre to the right, or rests at `eye` if the path is empty.
+std::string shot_text(const std::string& camera) {
+  return "scene = 'recipe:cornell'\nframes_per_second = 4\n[camera]\nvertical_fov_degrees = 39\n" + camera +
+         "\n[settings]\nvpls = 256\nsize = [64, 36]\n";
+}
+
+std::string keys_between(const std::string& from, const std::string& to) {
+  return "[[camera.key]]\ntime = 0\neye = " + from + "\ntarget = [0, 1, 0]\n[[camera.key]]\ntime = 1\neye = " + to +
+         "\ntarget = [0, 1, 0]\n";
+}
+
+TEST_F(CommandLine, a_camera_moves_along_its_path_and_each_frame_is_the_same_alone) {
+  std::ofstream(folder_ / "walk.toml") << shot_text(keys_between("[0, 1, 3.9]", "[1, 1, 3.9]"));
+  std::ofstream(folder_ / "stay.toml") << shot_text(keys_between("[0, 1, 3.9]", "[0, 1, 3.9]"));
+  std::ofstream(folder_ / "rest.toml") << shot_text("eye = [0, 1, 3.9]\ntarget = [0, 1, 0]\n");
+  ASSERT_EQ(run({"render", "walk.toml", "--frames", "0-4", "-o", "out/walk-####.png", "--statistics", "out/walk.json"})
+                .exit_code,
+            0);
+  ASSERT_EQ(run({"render", "walk.toml", "--frames", "3", "-o", "out/alone-####.png"}).exit_code, 0);
+  EXPECT_EQ(content(folder_ / "out/walk-0003.png"), content(folder_ / "out/alone-0003.png"));
+  for (const char* shot : {"stay", "rest"}) {
+    const std::string name = shot;
+    ASSERT_EQ(run({"render", name + ".toml", "--frames", "0-4", "-o", "out/" + name + "-####.png"}).exit_code, 0);
+  }
+  for (const char* frame : {"0000", "0003", "0004"}) {
+    const auto picture = [&](const std::string& name) {
+      return content(folder_ / ("out/" + name + "-" + frame + ".png"));
+    };
+    EXPECT_EQ(picture("stay"), picture("rest"));
+    EXPECT_EQ(picture("walk") == picture("rest"), frame == std::string("0000"));  // else the comparison proves nothing
+  }
+  const auto statistics = nlohmann::json::parse(content(folder_ / "out/walk.json"));
+  ASSERT_EQ(statistics["frames"].size(), 5u);
+  EXPECT_TRUE(statistics["frames"][4].contains("passes_ms"));
+  // Another camera of the command line stands still.
+  ASSERT_EQ(
+      run({"render", "walk.toml", "--camera", "0,1,3.9/0,1,0/39", "--frames", "4", "-o", "out/own-####.png"}).exit_code,
+      0);
+  EXPECT_EQ(content(folder_ / "out/own-0004.png"), content(folder_ / "out/rest-0004.png"));
+}
+
 TEST_F(CommandLine, misuse_is_refused_with_one_sentence_and_exit_code_2) {
   EXPECT_REFUSED(2, {});
   EXPECT_REFUSED(2, {"dance"});
@@ -132,6 +173,8 @@ TEST_F(CommandLine, bad_scenes_end_with_exit_code_3) {
   std::ofstream(folder_ / "settings.toml") << "scene = 'recipe:ring'\n[settings]\nvplz = 3\n";
   EXPECT_REFUSED(3, {"render", "settings.toml", "-o", "out/a.exr"});
   EXPECT_REFUSED(3, {"make", "lamps", "count=10", "-o", "out/a.pbrt"});
+  std::ofstream(folder_ / "path.toml") << shot_text("[[camera.key]]\ntime = 0\neye = [0, 1, 3]\ntarget = [0, 1, 0]\n");
+  EXPECT_REFUSED(3, {"render", "path.toml", "-o", "out/a.exr"});
   // The control: the same file without the fault is rendered.
   std::ofstream(folder_ / "right.toml") << "scene = 'recipe:cornell'\n[settings]\nvpls = 64\nsize = [16, 9]\n";
   EXPECT_EQ(run({"render", "right.toml", "-o", "out/a.exr"}).exit_code, 0);

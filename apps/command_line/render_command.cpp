@@ -41,7 +41,10 @@ void add_metadata(Image& image, const RenderPlan& plan, const RenderOptions& opt
 class Run {
  public:
   Run(const RenderOptions& options, RenderPlan plan)
-      : options_(options), plan_(std::move(plan)), progress_(verbosity_of(options)) {}
+      : options_(options),
+        plan_(std::move(plan)),
+        progress_(verbosity_of(options)),
+        moves_(plan_.shot.camera_path && options.camera.empty()) {}
 
   Result<int> operator()() {
     Result<Renderer> renderer = prepare();
@@ -49,6 +52,7 @@ class Run {
     statistics_.bvh_ms = renderer->bvh_build_ms();
     statistics_.settings = renderer->settings();
     for (std::uint64_t index = plan_.frames.first; index <= plan_.frames.last && !stop_requested(); ++index) {
+      if (moves_) renderer->set_camera(camera_at(*plan_.shot.camera_path, double(index), plan_.shot.frames_per_second));
       if (Status status = render_one(*renderer, index); !status) return stopped_or(status.error());
     }
     if (!options_.statistics.empty() && !statistics_.frames.empty()) {
@@ -136,6 +140,7 @@ class Run {
   const RenderOptions& options_;
   RenderPlan plan_;
   Progress progress_;
+  bool moves_;  // along the shot's path
   RunStatistics statistics_;
   std::uint64_t pictures_ = 0, complete_frames_ = 0;
 };

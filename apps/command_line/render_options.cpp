@@ -19,7 +19,7 @@ constexpr const char* kExamples = R"(Examples:
   luciole render "recipe:ring?alpha=0.1" --size 640x360 --vpls 4096 -o ring.exr --layers direct,indirect
   luciole render sponza/sponza.gltf --scenes ~/scenes --camera -9,2,0/0,2.5,0/60 -o sponza.png
   luciole render gallery --accumulate 64 --jitter -o smooth.exr -o smooth.png
-  luciole render gallery --frames 1-120 -o frame-####.png --statistics frames.json
+  luciole render gallery-walk --frames 0-179 -o frame-####.png --statistics frames.json
   luciole render gallery --culling none --ranges infinite --interleave 1 --filter none -o reference.exr
 
   luciole render lamps --method path --samples 256 -o lamps.exr --layers albedo,normal,variance
