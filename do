@@ -10,6 +10,9 @@ usage() {
 ./do build     install what is missing, build the program: build/luciole
 ./do test      install what is missing, build, run all tests
 ./do check     sanitizers, fuzzing, source format (long; what a release must pass)
+./do reproduce [NAME ...] [--quick] [--document FILE]
+               remake figures and tables of the papers, all or those named, and show them: out/report/index.html;
+               goes on where it was interrupted. All of them take an hour or two; --quick takes minutes and proves nothing
 ./do bench     build and run the benchmarks, all or those named: remakes docs/results
 ./do format    format all C++ sources
 TEXT
@@ -95,7 +98,7 @@ run_tests() {
 }
 
 test_all() {
-  need run test report
+  need run test report reproduce
   need_browser_driver
   build_program ON
   cmake --build build
@@ -103,7 +106,7 @@ test_all() {
 }
 
 check() {
-  need run test check
+  need run test check reproduce
   tests/check.sh
 }
 
@@ -112,6 +115,14 @@ bench() {
   need run test bench
   build_program
   benchmarks/run.sh "$@"
+}
+
+# Needs no browser: the page is for whatever one has.
+reproduce() {
+  need run reproduce
+  build_program
+  cmake --build build --target luciole
+  exec python3 reproduce/reproduce.py build/luciole "$@"
 }
 
 format() {
@@ -125,6 +136,7 @@ case "${1:-}" in
   test) test_all ;;
   check) check ;;
   bench) bench "${@:2}" ;;
+  reproduce) reproduce "${@:2}" ;;
   format) format ;;
   '' | help | -h | --help) usage ;;
   *)

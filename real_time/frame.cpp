@@ -89,6 +89,11 @@ struct View {
   VirtualPointLights vpls;
   Plane3 direct;
   std::vector<std::pair<std::string, double>> passes_ms;
+
+  const VirtualPointLights& vpls_if(bool wanted) const {
+    static const VirtualPointLights none;
+    return wanted ? vpls : none;
+  }
 };
 
 struct Renderer::State {
@@ -147,15 +152,17 @@ bool Renderer::State::render_view(std::uint64_t frame_index, View& made) {
   return !stop_requested();
 }
 
-// Lights of one frame that have their ranges.
+// Lights of one frame that have their ranges. Lobes that are not wanted come to no list, and to no count.
 struct Reached {
   ReachingLights<DiffuseEmitter> diffuse;
   ReachingLights<GlossyEmitter> glossy;
   ReachingLights<ManyEmitter> many;
 
   Reached(const View& seen, const ManyLights& many_lights, const RangeParameters& range, const Settings& settings)
-      : diffuse(reach_diffuse_lobes(seen.vpls, range, settings.interleave, settings.isa)),
-        glossy(reach_glossy_lobes(seen.vpls, range, settings.interleave, settings.isa)),
+      : diffuse(reach_diffuse_lobes(seen.vpls_if(settings.lobes != Lobes::glossy), range, settings.interleave,
+                                    settings.isa)),
+        glossy(reach_glossy_lobes(seen.vpls_if(settings.lobes != Lobes::diffuse), range, settings.interleave,
+                                  settings.isa)),
         many(reach_many_lights(many_lights, range, settings.interleave, settings.isa)) {}
 };
 

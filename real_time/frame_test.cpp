@@ -85,6 +85,26 @@ TEST(LightCulling, changes_the_cost_but_never_the_picture) {
   }
 }
 
+// The light of one kind of lobe, and no cost of the other: what [TH17] Table 2 is measured with.
+TEST(Lobes, are_taken_apart_without_a_change_of_either) {
+  const Stage scene = stage("recipe:cornell?glossy=0.1");
+  const auto frame_of = [&](Lobes lobes) {
+    Settings settings = small_settings();
+    settings.lobes = lobes;
+    Result<Renderer> renderer = Renderer::create(scene.scene, scene.camera, scene.primaries, settings);
+    return *renderer->render(0, {"indirect_from_diffuse", "indirect_from_glossy"});
+  };
+  const Frame all = frame_of(Lobes::all), diffuse = frame_of(Lobes::diffuse), glossy = frame_of(Lobes::glossy);
+  const auto layer = [](const Frame& frame, const char* name) { return frame.layers.colours(name); };
+  EXPECT_TRUE(same_bits(layer(diffuse, "indirect_from_diffuse"), layer(all, "indirect_from_diffuse")));
+  EXPECT_TRUE(same_bits(layer(glossy, "indirect_from_glossy"), layer(all, "indirect_from_glossy")));
+  EXPECT_FALSE(same_bits(diffuse.picture, glossy.picture));
+  EXPECT_GT(all.statistics.evaluated.glossy, 0);
+  EXPECT_EQ(diffuse.statistics.evaluated.glossy, 0);
+  EXPECT_EQ(glossy.statistics.evaluated.diffuse, 0);
+  EXPECT_EQ(diffuse.statistics.evaluated.diffuse, all.statistics.evaluated.diffuse);
+}
+
 TEST(Rivals, of_tiled_culling_make_the_same_picture_on_any_number_of_threads) {
   for (const char* address : {"recipe:cornell?glossy=0.1", "recipe:ring?alpha=0.1", "recipe:lights?count=300"}) {
     const Stage scene = stage(address);

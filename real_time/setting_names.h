@@ -27,6 +27,9 @@ constexpr NameTable<Ranges, 4> names(Ranges) {
            {Ranges::clamped_bound, "clamped-bound"},
            {Ranges::infinite, "infinite"}}};
 }
+constexpr NameTable<Lobes, 3> names(Lobes) {
+  return {{{Lobes::all, "all"}, {Lobes::diffuse, "diffuse"}, {Lobes::glossy, "glossy"}}};
+}
 constexpr NameTable<NearField, 2> names(NearField) {
   return {{{NearField::disc, "disc"}, {NearField::point, "point"}}};
 }

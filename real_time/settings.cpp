@@ -9,6 +9,7 @@ std::string to_string(BoundingVolume value) { return name_of(value); }
 std::string to_string(TileTest value) { return name_of(value); }
 std::string to_string(Culling value) { return name_of(value); }
 std::string to_string(Ranges value) { return name_of(value); }
+std::string to_string(Lobes value) { return name_of(value); }
 std::string to_string(NearField value) { return name_of(value); }
 std::string to_string(Filter value) { return name_of(value); }
 

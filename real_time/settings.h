@@ -32,6 +32,11 @@ enum class Ranges : std::uint8_t {
   clamped_bound,  // [TH16] Appendix A: a constant range from the error bound; too dark
   infinite        // every light everywhere, no roulette: the reference
 };
+enum class Lobes : std::uint8_t {
+  all,      // each virtual point light scatters evenly and reflects
+  diffuse,  // only what it scatters evenly: [TH16], and the upper half of [TH17] Table 2
+  glossy    // only what it reflects: [TH17] Figs. 9 and 10, and the lower half of Table 2
+};
 enum class NearField : std::uint8_t {
   disc,  // 1/(l^2 + A/pi): the texel's area softens the singularity; a bias near surfaces, docs/noise_and_bias.md
   point  // 1/l^2
@@ -45,6 +50,7 @@ struct Settings {
   TileTest tile_test = TileTest::tight;
   Culling culling = Culling::tiled;
   Ranges ranges = Ranges::stochastic;
+  Lobes lobes = Lobes::all;
   NearField near_field = NearField::disc;
   Filter filter = Filter::bilateral;
   std::uint32_t interleave = 8;  // 1, 2, 4 or 8: pixels split into n*n sub-regions, each sees 1/(n*n) of the lights
@@ -63,6 +69,7 @@ std::string to_string(BoundingVolume);
 std::string to_string(TileTest);
 std::string to_string(Culling);
 std::string to_string(Ranges);
+std::string to_string(Lobes);
 std::string to_string(NearField);
 std::string to_string(Filter);
 

@@ -45,6 +45,7 @@ const SettingTable<Settings>& table() {
       choice_entry("culling", "lights of a pixel, by: tiled|clustered|splatting|none; the same bits",
                    &Settings::culling),
       choice_entry("ranges", "reach of lights: stochastic|clamped|clamped-bound|infinite", &Settings::ranges),
+      choice_entry("lobes", "light of virtual point lights: all|diffuse|glossy", &Settings::lobes),
       choice_entry("near_field", "light close to a VPL: disc|point", &Settings::near_field),
       choice_entry("filter", "noise filter: bilateral|none", &Settings::filter),
       whole_entry<Settings, std::uint32_t>("interleave", "n: n*n sub-regions of pixels: 1|2|4|8", "one of 1, 2, 4, 8",

@@ -164,7 +164,7 @@ function luciole_pixels(stem, base64) {
     const properties = { "--zoom": state.zoom, "--x": shift(state.x), "--y": shift(state.y), "--split": `${state.split}%` };
     for (const [name, value] of Object.entries(properties)) panels.style.setProperty(name, value);
     panels.classList.toggle("zoomed", state.zoom > 1);
-    const image_width = Number(stages[0].querySelector("[width]").getAttribute("width"));
+    const image_width = Number(stages[0].querySelector("[width]").getAttribute("width"));  // the first stands for all
     // Pixels of the picture become squares to look at once they are larger than one and a half of the screen's.
     const magnified = (stages[0].clientWidth * state.zoom * devicePixelRatio) / image_width;
     panels.classList.toggle("coarse", magnified > 1.5);

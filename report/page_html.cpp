@@ -11,32 +11,44 @@ extern const char* const kPageStyle;   // page.css
 extern const char* const kPageScript;  // page.js
 
 // The script is at the end: without it, or with one that fails, the page above shows all pictures below each other.
-std::string page_html(const PageContent& content) {
-  const std::string reference = escape_html(content.reference.name), made_by = escape_html(content.made_by);
+std::string framed(const PageFrame& frame, const std::string& main) {
   std::string text = fmt::format(R"(<!DOCTYPE html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
-<meta name="generator" content="{0}">
-<title>Comparison with {1}</title>
+<meta name="generator" content="{}">
+<title>{}</title>
 <link rel="icon" href="data:,">
 <style>
-{2}</style>
+{}</style>
 </head>
-<body data-exposure="{3:.9g}" data-tone-curve="{4}">
+<body{}>
 <header>
-<h1>Comparison with <span class="name">{1}</span></h1>
-<p>{5} {6} of {7} × {8} pixels and a reference. Made by {0}.</p>
-</header>
+{}</header>
 <main>
 )",
-                                 made_by, reference, kPageStyle, content.display.exposure,
-                                 tone_curve_name(content.display.tone_curve), content.pictures.size(),
-                                 content.pictures.size() == 1 ? "picture" : "pictures", content.width, content.height);
-  text += figures_section(content) + pictures_section(content) + settings_section(content);
-  return text + "</main>\n<script>\n" + kPageScript + "</script>\n</body>\n</html>\n";
+                                 frame.made_by, frame.title, kPageStyle, frame.body_attributes, frame.header);
+  text += main + "</main>\n";
+  if (frame.scripted) text += std::string("<script>\n") + kPageScript + "</script>\n";
+  return text + "</body>\n</html>\n";
+}
+
+std::string page_html(const PageContent& content) {
+  const std::string reference = escape_html(content.reference.name), made_by = escape_html(content.made_by);
+  PageFrame frame;
+  frame.title = "Comparison with " + reference;
+  frame.made_by = made_by;
+  frame.body_attributes = fmt::format(" data-exposure=\"{:.9g}\" data-tone-curve=\"{}\"", content.display.exposure,
+                                      tone_curve_name(content.display.tone_curve));
+  frame.header = fmt::format(R"(<h1>Comparison with <span class="name">{}</span></h1>
+<p>{} {} of {} × {} pixels and a reference. Made by {}.</p>
+)",
+                             reference, content.pictures.size(), content.pictures.size() == 1 ? "picture" : "pictures",
+                             content.width, content.height, made_by);
+  const std::vector<PageContent> groups = {content};
+  return framed(frame, figures_section(groups) + pictures_section(groups) + settings_section(content));
 }
 
 }  // namespace luciole

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/text.h"
 #include "image/false_colour.h"
 #include "report/html.h"
 #include "report/page_html.h"
@@ -188,33 +189,57 @@ std::string common_settings(const PageContent& content, const std::set<std::stri
 
 }  // namespace
 
-std::string figures_section(const PageContent& content) {
-  std::string text = R"(<section>
-<h2 id="figures">Figures</h2>
-<div class="scroll" tabindex="0" role="region" aria-labelledby="figures">
-<table class="figures"><thead><tr><th scope="col">Picture</th>)";
+namespace {
+
+std::string figures_table(const PageContent& content, const std::string& label) {
+  std::string text = fmt::format(R"(<div class="scroll" tabindex="0" role="region" aria-labelledby="{}">
+<table class="figures"><thead><tr><th scope="col">Picture</th>)",
+                                 label);
   for (const Column& column : kColumns) text += fmt::format("<th scope=\"col\">{}</th>", column.title);
   if (any_time(content)) text += "<th scope=\"col\">Time</th>";
   text += "</tr></thead>\n<tbody>\n";
   for (const PageEntry& picture : content.pictures) text += figures_row(content, picture);
-  text += fmt::format(
-      R"(</tbody></table>
-</div>
-<p class="note">For a picture x and the reference r, means over pixels and channels: RMSE is √mean((x − r)²), relMSE is
-mean((x − r)² / (r² + 0.01 mean(r)²)), the mean ratio is mean(x) / mean(r). The relative error of a pixel is the square
-root of its share of relMSE. FLIP is the mean of the difference that an
-observer sees, from 0 to 1, at exposure {:g} with the tone curve {} and {:.0f} pixels per degree.</p>
-)",
-      content.display.exposure, tone_curve_name(content.display.tone_curve), content.display.pixels_per_degree);
+  text += "</tbody></table>\n</div>\n";
   if (!content.reference.render_time.empty()) {
     text += fmt::format("<p class=\"note\">The reference took {}.</p>\n", escape_html(content.reference.render_time));
   }
-  return text + "</section>\n";
+  return text;
 }
 
-std::string pictures_section(const PageContent& content) {
+// Groups may differ in how bright they are shown.
+std::string exposures(const std::vector<PageContent>& groups) {
+  std::set<std::string> all;
+  for (const PageContent& group : groups) all.insert(fmt::format("{:g}", group.display.exposure));
+  return joined(all);
+}
+
+}  // namespace
+
+std::string figures_section(const std::vector<PageContent>& groups) {
+  std::string text = "<section>\n<h2 id=\"figures\">Figures</h2>\n";
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const std::string label = groups[i].title.empty() ? "figures" : fmt::format("figures-{}", i + 1);
+    if (!groups[i].title.empty()) text += fmt::format("<h3 id=\"{}\">{}</h3>\n", label, escape_html(groups[i].title));
+    text += figures_table(groups[i], label);
+  }
+  const ComparisonSettings& display = groups.front().display;
+  return text +
+         fmt::format(
+             R"(<p class="note">For a picture x and the reference r, means over pixels and channels: RMSE is √mean((x − r)²), relMSE is
+mean((x − r)² / (r² + 0.01 mean(r)²)), the mean ratio is mean(x) / mean(r). The relative error of a pixel is the square
+root of its share of relMSE. FLIP is the mean of the difference that an
+observer sees, from 0 to 1, at exposure {} with the tone curve {} and {:.0f} pixels per degree.</p>
+</section>
+)",
+             exposures(groups), tone_curve_name(display.tone_curve), display.pixels_per_degree);
+}
+
+std::string pictures_section(const std::vector<PageContent>& groups) {
   std::string text = "<section>\n<h2>Pictures</h2>\n" + controls() + scales() + "<div class=\"panels\">\n";
-  for (const PageEntry& picture : content.pictures) text += panel(content, picture);
+  for (const PageContent& group : groups) {
+    if (!group.title.empty()) text += fmt::format("<h3 class=\"group\">{}</h3>\n", escape_html(group.title));
+    for (const PageEntry& picture : group.pictures) text += panel(group, picture);
+  }
   return text + "</div>\n" + kKeys + "</section>\n";
 }
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # What ./do check runs: unit tests under the address and undefined-behaviour sanitizers and under the thread sanitizer, a
-# planted race, two minutes of fuzzing per target, and the format of all sources. Every part runs; any failure fails.
+# planted race, two minutes of fuzzing per target, the papers' figures at small sizes, and the format of all sources.
+# Every part runs; any failure fails.
 #   LUCIOLE_FUZZ_SECONDS   time per fuzz target, 120 by default
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit
@@ -88,6 +89,13 @@ fuzz_one() {
     -artifact_prefix="build-fuzz/$1-" "$corpus" > "build-fuzz/$1.log" 2>&1
 }
 
+# Every recipe from its commands to its page, at sizes that prove nothing but that.
+reproduce_quick() {
+  mkdir -p out
+  ./do reproduce --quick > out/reproduce-quick.log 2>&1 || { tail -n 20 out/reproduce-quick.log; return 1; }
+  tail -n 1 out/reproduce-quick.log
+}
+
 formatted() {
   local wrong
   wrong=$(find apps base benchmarks equations examples image offline ray_tracing real_time report scene shot tests \
@@ -101,6 +109,7 @@ part "address and undefined-behaviour sanitizers" address
 part "thread sanitizer" thread
 part "planted race" planted_race
 part "fuzzing" fuzz
+part "the papers' figures, quick" reproduce_quick
 
 if ((${#failures[@]})); then
   printf 'check failed: %s\n' "${failures[@]}"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// luciole report: a page for a browser that holds pictures against a reference.
+// luciole report: pages for a browser: pictures held against a reference, or the figures of ./do reproduce.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +16,7 @@
 #include "image/exr.h"
 #include "image/tone_curve.h"
 #include "report/comparison_page.h"
+#include "report/figure_pages.h"
 
 namespace luciole {
 namespace {
@@ -25,12 +26,13 @@ namespace fs = std::filesystem;
 constexpr const char* kExamples = R"(Examples:
   luciole report --compare result.exr --reference reference.exr -o page
   luciole report --compare tree.exr uniform.exr other-renderer.exr --reference truth.exr -o page --exposure 4
+  luciole report --figures out/reproduce/*/figure.json -o out/report     (what ./do reproduce ends with)
 
 The page is page/index.html; it needs no network, and the folder can be moved. Times come from the files, or from
 NAME.json beside NAME.exr (luciole render --statistics NAME.json).)";
 
 struct ReportOptions {
-  std::vector<std::string> pictures;
+  std::vector<std::string> pictures, figures;
   std::string reference, output;
   float exposure = 0;  // 0: not said
   std::string tone_curve = "pbr-neutral";
@@ -63,7 +65,32 @@ float chosen_exposure(const ReportOptions& options, const Image& reference) {
   return exposure > 0 && std::isfinite(exposure) ? exposure : 1;
 }
 
-Result<int> run_report(const ReportOptions& options) {
+// One page per figure, and the index last.
+Result<int> report_figures(const ReportOptions& options) {
+  std::vector<Figure> figures;
+  for (const std::string& file : options.figures) {
+    Result<Figure> figure = read_figure(file);
+    if (!figure) return figure.error();
+    figures.push_back(std::move(*figure));
+  }
+  std::error_code failure;
+  fs::create_directory(options.output, failure);
+  if (!fs::is_directory(options.output))
+    return Error{ErrorKind::failed, options.output + ": is no folder, and cannot be made"};
+  Progress progress(Verbosity::normal);
+  for (const Figure& figure : figures) {
+    progress.step("page of " + figure.name);
+    if (Status status = write_figure_page(figure, options.output, made_by()); !status) return status.error();
+    if (stop_requested()) {
+      progress.note("interrupted: the index was not written");
+      return kInterrupted;
+    }
+  }
+  if (Status status = write_figure_index(figures, options.output, made_by()); !status) return status.error();
+  return 0;
+}
+
+Result<int> compare_pictures(const ReportOptions& options) {
   ComparisonSettings display;
   const std::optional<ToneCurve> curve = tone_curve_by_name(options.tone_curve);
   if (!curve) return Error{ErrorKind::usage, "--tone-curve must be pbr-neutral or linear"};
@@ -89,14 +116,26 @@ Result<int> run_report(const ReportOptions& options) {
   return 0;
 }
 
+Result<int> run_report(const ReportOptions& options) {
+  if (!options.figures.empty()) return report_figures(options);
+  if (options.pictures.empty() || options.reference.empty()) {
+    return Error{ErrorKind::usage, "report needs --compare with --reference, or --figures"};
+  }
+  return compare_pictures(options);
+}
+
 }  // namespace
 
 void add_report_command(CLI::App& program, Command& chosen) {
   const auto options = std::make_shared<ReportOptions>();
-  CLI::App* command = program.add_subcommand("report", "Make a page that compares pictures with a reference");
+  CLI::App* command = program.add_subcommand("report", "Make pages that compare pictures with references");
   command->footer(kExamples);
-  command->add_option("--compare", options->pictures, "OpenEXR files of one size, of any renderer")->required();
-  command->add_option("--reference", options->reference, "OpenEXR file of the same size")->required();
+  CLI::Option* compare =
+      command->add_option("--compare", options->pictures, "OpenEXR files of one size, of any renderer");
+  CLI::Option* reference = command->add_option("--reference", options->reference, "OpenEXR file of the same size");
+  command->add_option("--figures", options->figures, "figure.json files of ./do reproduce: a site of them")
+      ->excludes(compare)
+      ->excludes(reference);
   command->add_option("-o,--output", options->output, "folder of the page; is made if its parent exists")->required();
   command
       ->add_option("--exposure", options->exposure,

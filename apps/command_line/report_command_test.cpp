@@ -79,6 +79,8 @@ TEST_F(ReportCommand, misuse_ends_with_exit_code_2) {
   EXPECT_REFUSED(2, {"report", "--reference", "r.exr", "-o", "out/page"});
   EXPECT_REFUSED(2, {"report", "--compare", "a.exr", "--reference", "r.exr"});
   EXPECT_REFUSED(2, {"report", "--compare", "a.exr", "--reference", "r.exr", "-o", ""});
+  EXPECT_REFUSED(2, {"report", "-o", "out/page"});
+  EXPECT_REFUSED(2, {"report", "--figures", "f.json", "--reference", "r.exr", "-o", "out/page"});
   EXPECT_REFUSED(2, {"report", "--compare", "a.exr", "--reference", "r.exr", "-o", "out/page", "--exposure", "0"});
   EXPECT_REFUSED(2, {"report", "--compare", "a.exr", "--reference", "r.exr", "-o", "out/page", "--tone-curve", "x"});
 }
@@ -87,6 +89,7 @@ TEST_F(ReportCommand, bad_files_and_folders_end_with_exit_code_1_and_no_page) {
   std::ofstream(folder_ / "text.exr") << "no picture";
   std::ofstream(folder_ / "file") << "no folder";
   EXPECT_REFUSED(1, report("nowhere.exr", "out/page"));
+  EXPECT_REFUSED(1, {"report", "--figures", "nowhere.json", "-o", "out/page"});
   EXPECT_REFUSED(1, report("text.exr", "out/page"));
   EXPECT_REFUSED(1, report("wide.exr", "out/page"));
   EXPECT_REFUSED(1, report("a.exr", "file"));

@@ -29,6 +29,38 @@ function make_pages() {
   render("truth.exr", ["--culling", "none", "--ranges", "infinite", "--interleave", "1"]);
   report(kNames, 3, "page");
   report(kNames.slice(0, 1), 12, "brighter");
+  make_site();
+}
+
+// What ./do reproduce ends with: two groups of pictures, a map, a plot, tables and claims; and a figure without pictures.
+function make_site() {
+  execFileSync(luciole, ["render", "recipe:cornell", "--size", "64x36", "--vpls", "256", "--layers", "lights_listed,lights_false",
+    "-o", join(scratch, "lights.exr")]);
+  const cell = (ours, paper) => ({ ours, paper, ratio: paper && ours / paper, reason: "" });
+  const row = (name) => ({ name, cells: Array.from({ length: 7 }, (_, i) => cell(10 * i + 1, i ? 3 : null)) });
+  const group = (title) => ({ title, exposure: 3, reference: { name: "reference", file: "truth.exr" },
+    pictures: kNames.map((file) => ({ name: `${title}, ${file}`, file, time: "5 ms a frame" })) });
+  const claim = { text: "fewer", held: true, kept: 2, of: 2, low: 1, high: 2, worst: "", at_least: 1, at_most: null, paper: [1.6, 4],
+    of_time: false, note: "" };
+  const points = [1024, 4096, 65536].map((n) => [n, n ** 0.5]);
+  const figure = {
+    name: "th17-fig0", paper: "TH17", paper_title: "A paper", figure: "Figure 0", title: "A title", says: "so.", stands_in: ["a room"],
+    differs: [], missing: ["a scene"], quick: true, commands: ["luciole render a-very-long-name".repeat(9)], machine: { threads: 2 },
+    tables: [{ title: "Counts", unit: "ms", note: "", row_title: "scene", columns: [..."abcdefg"], has_paper: true, rows: [row("ring")] }],
+    plots: [{ title: "Cost", x_title: "lights", y_title: "ms", note: "", series: [{ name: "clamped", points }],
+      laws: [{ name: "clamped: law", points }] }],
+    claims: [claim, { ...claim, held: false, of_time: true }], comparisons: [group("one"), group("two")],
+    maps: [{ title: "spheroid", file: "lights.exr" }],
+  };
+  const bare = { ...figure, name: "th17-table0", plots: [], comparisons: [], maps: [] };
+  const files = [figure, bare].map((content) => {
+    mkdirSync(join(scratch, content.name));
+    for (const file of [...kNames, "truth.exr", "lights.exr"]) cpSync(join(scratch, file), join(scratch, content.name, file));
+    const file = join(scratch, content.name, "figure.json");
+    writeFileSync(file, JSON.stringify(content));
+    return file;
+  });
+  execFileSync(luciole, ["report", "--figures", ...files, "-o", join(scratch, "site")]);
 }
 
 const browser = await chromium.launch({ executablePath: browser_program });
@@ -42,8 +74,10 @@ async function open_page(folder, viewport, scheme) {
   page.on("requestfailed", (request) => faults.push(`missing: ${request.url()}`));
   page.on("request", (request) => /^(file|data|blob):/.test(request.url()) || faults.push(`network: ${request.url()}`));
   await page.goto(pathToFileURL(join(folder, "index.html")).href, { waitUntil: "load" });
-  await page.waitForSelector("html[data-ready]");
-  if (!(await page.$("html[data-ready=true]"))) faults.push("the pixels did not arrive");
+  if (await page.$(".stage")) {
+    await page.waitForSelector("html[data-ready]");
+    if (!(await page.$("html[data-ready=true]"))) faults.push("the pixels did not arrive");
+  }
   const broken = await page.$$eval("img", (images) => images.filter((image) => !image.naturalWidth).map((image) => image.src));
   faults.push(...broken.map((name) => `not shown: ${name}`));
   const { wide, room } = await page.evaluate(() => ({ wide: document.documentElement.scrollWidth, room: innerWidth }));
@@ -122,6 +156,40 @@ const tests = {
     writeFileSync(join(copy, "index.html"), text.replace("</body>", "<script>no_such_function()</script></body>"));
     const { page, faults } = await open_page(copy, kWide, "light");
     assert.ok(faults.some((fault) => fault.includes("no_such_function")), `${faults}`);
+    await page.close();
+  },
+
+  async the_site_of_figures_is_whole_wide_or_narrow_in_light_and_dark() {
+    for (const folder of ["site", "site/th17-fig0", "site/th17-table0"]) {
+      for (const [viewport, scheme] of [[kWide, "light"], [kPhone, "dark"]]) {
+        const { page, faults } = await open_page(join(scratch, folder), viewport, scheme);
+        assert.deepEqual(faults, [], folder);
+        await page.close();
+      }
+    }
+    const { page } = await open_page(join(scratch, "site"), kWide, "light");
+    await page.keyboard.press("Tab");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector("html[data-ready=true]");
+    assert.match(page.url(), /th17-fig0\/index\.html$/);
+    await page.close();
+    unlinkSync(join(scratch, "site/th17-fig0/map-1.png"));
+    const { page: broken, faults } = await open_page(join(scratch, "site/th17-fig0"), kWide, "light");
+    assert.ok(faults.some((fault) => fault.includes("map-1.png")), `${faults}`);
+    await broken.close();
+  },
+
+  async the_pictures_of_all_groups_of_a_figure_are_in_step() {
+    const { page, faults } = await open_page(join(scratch, "site/th17-fig0"), kWide, "light");
+    assert.deepEqual(await visible_layers(page), Array(4).fill("picture+reference"));
+    await page.focus(".split");
+    for (let i = 0; i < 10; ++i) await page.keyboard.press("ArrowRight");
+    await page.focus(".stage");
+    await page.keyboard.press("Digit3");
+    await settled(page);
+    assert.deepEqual(await computed(page, ".layer.on-right", "clipPath"), Array(4).fill("inset(0px 0px 0px 60%)"));
+    assert.deepEqual(await visible_layers(page), Array(4).fill("reference+error"));
+    assert.deepEqual(faults.filter((fault) => !fault.includes("map-1.png")), []);
     await page.close();
   },
 
