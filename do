@@ -65,7 +65,7 @@ build_program() {
 }
 
 cpp_sources() {
-  find apps base benchmarks docs equations examples image offline ray_tracing real_time report scene shot tests \
+  find apps base benchmarks docs equations examples gpu image offline ray_tracing real_time report scene shot tests \
     \( -name '*.h' -o -name '*.cpp' -o -name '*.inc' \) -print0 2> /dev/null
 }
 

@@ -7,7 +7,7 @@ include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
 # The rooms that other programs may use; apps, tests and benchmarks stay here.
-set(luciole_installed_folders base equations image report scene shot ray_tracing real_time offline)
+set(luciole_installed_folders base equations gpu image report scene shot ray_tracing real_time offline)
 
 # Every library luciole_* that a folder or one below builds by default.
 function(luciole_collect_rooms folder result)

@@ -8,9 +8,18 @@ function(luciole_room name)
   target_link_libraries(luciole_${name} PUBLIC luciole_flags ${ROOM_LINK} PRIVATE ${ROOM_PRIVATE_LINK})
 endfunction()
 
+# luciole_test_program(name SOURCES a_test.cpp LINK luciole_image ...)
+# A program of tests. It finds bundled data and scratch space by LUCIOLE_SOURCE_DIR and LUCIOLE_SCRATCH_DIR.
+function(luciole_test_program name)
+  cmake_parse_arguments(TEST "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${TEST_SOURCES})
+  target_link_libraries(${name} PRIVATE luciole_flags ${TEST_LINK} GTest::gtest GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE LUCIOLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                                             LUCIOLE_SCRATCH_DIR="${CMAKE_CURRENT_BINARY_DIR}")
+endfunction()
+
 # luciole_test(name SOURCES a_test.cpp LINK luciole_image ... [LABEL statistical])
 # One test program; its label is `unit` (fast) unless it is said to be `statistical` (slow, still in ./do test).
-# Tests find bundled data and scratch space by LUCIOLE_SOURCE_DIR and LUCIOLE_SCRATCH_DIR.
 function(luciole_test name)
   if(NOT LUCIOLE_TESTS)
     return()
@@ -19,10 +28,34 @@ function(luciole_test name)
   if(NOT TEST_LABEL)
     set(TEST_LABEL unit)
   endif()
-  add_executable(${name} ${TEST_SOURCES})
-  target_link_libraries(${name} PRIVATE luciole_flags ${TEST_LINK} GTest::gtest GTest::gtest_main)
-  target_compile_definitions(${name} PRIVATE LUCIOLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                                             LUCIOLE_SCRATCH_DIR="${CMAKE_CURRENT_BINARY_DIR}")
+  luciole_test_program(${name} SOURCES ${TEST_SOURCES} LINK ${TEST_LINK})
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES LABELS ${TEST_LABEL})
+endfunction()
+
+# luciole_device_test(name SOURCES a_test.cpp LINK luciole_gpu ... [LABEL statistical] [WIDTHS 8])
+# Tests on a Vulkan device, run as <name>_width_<n> for subgroups of 4, 8 and 16 invocations: so wide Mesa's software Vulkan
+# makes them by its variable; other drivers ignore it. Under the thread sanitizer they do not run, as it would have to know
+# the driver's threads; nor are leaks looked for, as drivers keep what they compiled.
+function(luciole_device_test name)
+  if(NOT LUCIOLE_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(TEST "" "LABEL" "SOURCES;LINK;WIDTHS" ${ARGN})
+  if(NOT TEST_LABEL)
+    set(TEST_LABEL unit)
+  endif()
+  if(NOT TEST_WIDTHS)
+    set(TEST_WIDTHS 4 8 16)
+  endif()
+  luciole_test_program(${name} SOURCES ${TEST_SOURCES} LINK ${TEST_LINK})
+  if(LUCIOLE_SANITIZE MATCHES "thread")
+    return()
+  endif()
+  foreach(width ${TEST_WIDTHS})
+    math(EXPR bits "${width} * 32")
+    add_test(NAME ${name}_width_${width} COMMAND ${name})
+    set_tests_properties(${name}_width_${width} PROPERTIES
+      LABELS ${TEST_LABEL} ENVIRONMENT "LP_NATIVE_VECTOR_WIDTH=${bits};ASAN_OPTIONS=detect_leaks=0")
+  endforeach()
 endfunction()

@@ -98,7 +98,7 @@ reproduce_quick() {
 
 formatted() {
   local wrong
-  wrong=$(find apps base benchmarks equations examples image offline ray_tracing real_time report scene shot tests \
+  wrong=$(find apps base benchmarks equations examples gpu image offline ray_tracing real_time report scene shot tests \
     \( -name '*.h' -o -name '*.cpp' \) -print0 2> /dev/null |
     xargs -0 clang-format --dry-run --Werror 2>&1 | grep -oE '^[^: ]+\.(h|cpp):' | sort -u)
   [[ -z $wrong ]] || { echo "not formatted (./do format mends it):"; echo "$wrong"; return 1; }

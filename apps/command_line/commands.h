@@ -18,6 +18,7 @@ void add_info_command(CLI::App& program, Command& chosen);
 void add_make_command(CLI::App& program, Command& chosen);
 void add_merge_command(CLI::App& program, Command& chosen);
 void add_compare_command(CLI::App& program, Command& chosen);
+void add_devices_command(CLI::App& program, Command& chosen);
 void add_report_command(CLI::App& program, Command& chosen);
 
 }  // namespace luciole

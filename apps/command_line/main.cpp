@@ -42,6 +42,7 @@ int run(int argument_count, char** arguments) {
   add_merge_command(program, chosen);
   add_compare_command(program, chosen);
   add_report_command(program, chosen);
+  add_devices_command(program, chosen);
   try {
     program.parse(argument_count, arguments);
   } catch (const CLI::Success& asked_for_text) {
@@ -51,7 +52,7 @@ int run(int argument_count, char** arguments) {
   }
   if (!chosen) {
     return explain(
-        {ErrorKind::usage, "a command is needed: render, info, make, merge, compare or report (see luciole --help)"});
+        {ErrorKind::usage, "a command is needed: render, info, make, merge, compare, report or devices (see luciole --help)"});
   }
   const Result<int> outcome = chosen();
   if (!outcome) return explain(outcome.error());
