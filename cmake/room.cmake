@@ -19,7 +19,8 @@ function(luciole_test_program name)
 endfunction()
 
 # luciole_test(name SOURCES a_test.cpp LINK luciole_image ... [LABEL statistical])
-# One test program; its label is `unit` (fast) unless it is said to be `statistical` (slow, still in ./do test).
+# One test program; its label is `unit` (fast) unless it is said to be `statistical` (slow, still in ./do test; not built
+# with sanitizers, under which ./do check runs units alone).
 function(luciole_test name)
   if(NOT LUCIOLE_TESTS)
     return()
@@ -27,6 +28,9 @@ function(luciole_test name)
   cmake_parse_arguments(TEST "" "LABEL" "SOURCES;LINK" ${ARGN})
   if(NOT TEST_LABEL)
     set(TEST_LABEL unit)
+  endif()
+  if(LUCIOLE_SANITIZE AND NOT TEST_LABEL STREQUAL "unit")
+    return()
   endif()
   luciole_test_program(${name} SOURCES ${TEST_SOURCES} LINK ${TEST_LINK})
   add_test(NAME ${name} COMMAND ${name})
