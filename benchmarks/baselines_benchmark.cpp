@@ -16,7 +16,7 @@ namespace luciole {
 namespace {
 
 struct Options {
-  std::string size = "1920x1080";
+  std::string size = "1920x1080", interleave = "8";
   int runs = 5;
   std::vector<std::string> shots;
 };
@@ -95,6 +95,8 @@ Options read_options(int argc, char** argv) {
     const std::string name = argv[i];
     if (name == "--size" && i + 1 < argc) {
       options.size = argv[++i];
+    } else if (name == "--interleave" && i + 1 < argc) {
+      options.interleave = argv[++i];
     } else if (name == "--runs" && i + 1 < argc) {
       options.runs = std::max(1, std::atoi(argv[++i]));
     } else {
@@ -126,7 +128,7 @@ int main(int argc, char** argv) {
       "surface, and tiles are shaded without the test per 16 pixels.\n",
       options.size.c_str(), options.runs);
   for (const std::string& shot : options.shots) {
-    const PreparedStage stage = prepare_stage(shot, {{"size", options.size}});
+    const PreparedStage stage = prepare_stage(shot, {{"size", options.size}, {"interleave", options.interleave}});
     for (const bool glossy : {false, true}) report(stage, glossy, options.runs);
   }
   return 0;

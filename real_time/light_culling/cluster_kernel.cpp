@@ -78,10 +78,11 @@ LUCIOLE_FN SlopeRange slopes_of(const ProxyEllipsoid& e, const IcosahedronProxy&
 LUCIOLE_FN ScreenRectangle tiles_in(const TileBand& band, const SlopeRange& s) {
   const float per_x = 1.0f / band.x_step, per_y = 1.0f / band.y_step;
   ScreenRectangle r;
-  r.column_begin = larger(whole_below((s.x_low - band.x_first) * per_x - kOverlap), 0);
-  r.column_end = smaller(whole_below((s.x_high - band.x_first) * per_x + kOverlap) + 1, static_cast<int>(band.columns));
-  r.row_begin = larger(whole_below((s.y_high - band.y_first) * per_y - kOverlap), static_cast<int>(band.row_begin));
-  r.row_end = smaller(whole_below((s.y_low - band.y_first) * per_y + kOverlap) + 1, static_cast<int>(band.row_end));
+  const ScreenRectangle window = rectangle_of(band.window);
+  r.column_begin = larger(whole_below((s.x_low - band.x_first) * per_x - kOverlap), window.column_begin);
+  r.column_end = smaller(whole_below((s.x_high - band.x_first) * per_x + kOverlap) + 1, window.column_end);
+  r.row_begin = larger(whole_below((s.y_high - band.y_first) * per_y - kOverlap), window.row_begin);
+  r.row_end = smaller(whole_below((s.y_low - band.y_first) * per_y + kOverlap) + 1, window.row_end);
   return r;
 }
 

@@ -2,11 +2,10 @@
 #include "real_time/light_culling/light_lists.h"
 
 #include <algorithm>
-#include <bit>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <mutex>
-#include <numeric>
 
 #include "base/parallel.h"
 #include "real_time/light_culling/proxy_kernel.h"
@@ -14,17 +13,18 @@
 namespace luciole {
 namespace {
 
-constexpr std::uint32_t kUnits = 64;  // pieces of the work, for the threads: a sub-region each, or a band of its rows
+constexpr std::uint32_t kUnits = 64;  // pieces of the work, for the threads: sub-regions, or some lights of one
 
-// One sub-region's band, and the spans of its lights.
+// Consecutive lights of one sub-region, and where they are found.
 struct Unit {
   TileBand band;
   SubsetBounds bounds;
+  std::uint32_t first_light, sub_region;
   AlignedVector<LightSpan> spans;
-  std::size_t span_count = 0;
+  std::vector<std::size_t> next;  // per tile of the sub-region: how many spans; then where the next one goes
 };
 
-TileBand band_of(const LightListInputs& in, std::uint32_t sub_region, std::uint32_t row_begin, std::uint32_t row_end) {
+TileBand band_of(const LightListInputs& in, std::uint32_t sub_region) {
   const GeometryBuffer& geometry = in.geometry;
   const float n = static_cast<float>(in.interleave), side = static_cast<float>(kTileSide) * n;
   const float sx = static_cast<float>(sub_region % in.interleave), sy = static_cast<float>(sub_region / in.interleave);
@@ -33,70 +33,124 @@ TileBand band_of(const LightListInputs& in, std::uint32_t sub_region, std::uint3
   TileBand band{};
   band.x_first = (sx + border - 0.5f * static_cast<float>(geometry.width)) * pixel, band.x_step = side * pixel;
   band.y_first = (0.5f * static_cast<float>(geometry.height) - sy - border) * pixel, band.y_step = -side * pixel;
-  band.columns = in.parts.columns(), band.row_begin = row_begin, band.row_end = row_end;
-  const std::size_t first_tile = std::size_t(sub_region) * in.parts.rows() * in.parts.columns();
+  band.window = in.window, band.columns = in.parts.columns();
+  const std::size_t first_tile = std::size_t(sub_region) * in.parts.tiles();
   band.occupied = in.parts.occupied().data() + first_tile, band.first = in.parts.first().data() + first_tile;
   band.slices = in.parts.slices();
   band.test = in.test;
   return band;
 }
 
+// Lights are split, not rows of tiles: a light that covers many rows is prepared only once.
 std::vector<Unit> units_of(const LightListInputs& in) {
-  const std::uint32_t sub_regions = in.interleave * in.interleave, rows = in.parts.rows();
-  const std::uint32_t bands = std::min(rows, std::max(1u, kUnits / sub_regions));
+  const std::uint32_t sub_regions = in.interleave * in.interleave, shares = std::max(1u, kUnits / sub_regions);
   std::vector<Unit> units;
   for (std::uint32_t s = 0; s < sub_regions; ++s) {
-    for (std::uint32_t b = 0; b < bands; ++b) {
-      units.push_back({band_of(in, s, rows * b / bands, rows * (b + 1) / bands), in.bounds[s], {}});
+    const std::uint32_t blocks = (in.bounds[s].count + 15) / 16;
+    for (std::uint32_t share = 0; share < shares; ++share) {
+      const std::uint32_t begin = blocks * share / shares, end = blocks * (share + 1) / shares;
+      if (begin == end) continue;
+      const std::uint32_t count = std::min(in.bounds[s].count, end * 16) - begin * 16;
+      units.push_back({band_of(in, s), {in.bounds[s].blocks + begin, count}, begin * 16, s, {}, {}});
     }
   }
   return units;
 }
 
-// Takes the lights of a unit to its tiles.
-class Rasteriser {
+// Where units count covered pixels. Those of one sub-region run side by side on the same pixels: each at work has an
+// array of its own. Sums of whole numbers do not show which unit had which.
+class Coverings {
  public:
-  Rasteriser(const LightListInputs& in, LightLists& lists) : in_(in), lists_(lists) {}
+  explicit Coverings(std::size_t size) : size_(size) {}
 
-  void run(Unit& unit) {
-    const std::size_t tiles = std::size_t(unit.band.columns) * (unit.band.row_end - unit.band.row_begin);
-    low_.resize(tiles), high_.resize(tiles);
-    bits_.assign(tiles * kGroupPixels, 0);
-    for (std::uint32_t b = 0; b * 16 < unit.bounds.count; ++b) {
-      const std::size_t enough = unit.span_count + 16 * tiles;
-      if (unit.spans.size() < enough) unit.spans.resize(std::max(2 * unit.spans.size(), enough));
-      unit.span_count += spans_of(unit, unit.bounds.blocks[b], b * 16, unit.spans.data() + unit.span_count);
+  AlignedVector<float> take() {
+    const std::scoped_lock lock(guard_);
+    if (idle_.empty()) {
+      AlignedVector<float> fresh(size_);
+      std::fill(fresh.begin(), fresh.end(), 0.0f);
+      return fresh;
     }
+    AlignedVector<float> taken = std::move(idle_.back());
+    idle_.pop_back();
+    return taken;
+  }
+
+  void give_back(AlignedVector<float> taken) {
+    const std::scoped_lock lock(guard_);
+    idle_.push_back(std::move(taken));
+  }
+
+  AlignedVector<float> sum() {
+    AlignedVector<float> total = take();
+    for (const AlignedVector<float>& more : idle_) {
+      parallel_for(size_, std::size_t(1) << 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) total[i] += more[i];
+      });
+    }
+    return total;
   }
 
  private:
-  std::uint32_t spans_of(const Unit& unit, const BoundBlock& block, std::uint32_t first_light, LightSpan* spans) {
+  std::size_t size_;
+  std::mutex guard_;
+  std::vector<AlignedVector<float>> idle_;
+};
+
+// Takes the lights of units to their tiles.
+class Rasteriser {
+ public:
+  explicit Rasteriser(const LightListInputs& in)
+      : in_(in), coverings_(in.culling == Culling::splatting ? std::size_t(in.parts.count()) * kGroupPixels : 0) {}
+
+  void run(Unit& unit) {
+    const TileWindow& w = in_.window;
+    const std::size_t tiles = std::size_t(w.column_end - w.column_begin) * (w.row_end - w.row_begin);
+    Memory memory;
+    memory.low.resize(tiles), memory.high.resize(tiles), memory.found.resize(16 * tiles);
+    memory.bits.assign(std::size_t(in_.parts.columns()) * (w.row_end - w.row_begin) * kGroupPixels, 0);
+    if (in_.culling == Culling::splatting) memory.covering = coverings_.take();
+    unit.next.assign(in_.parts.tiles(), 0);
+    for (std::uint32_t b = 0; b * 16 < unit.bounds.count && !too_long() && !stop_requested(); ++b) {
+      const std::uint32_t count = spans_of(unit, b, memory);
+      for (std::uint32_t i = 0; i < count; ++i) ++unit.next[memory.found[i].tile];
+      unit.spans.insert(unit.spans.end(), memory.found.begin(), memory.found.begin() + count);
+      entries_ += count;
+    }
+    if (in_.culling == Culling::splatting) coverings_.give_back(std::move(memory.covering));
+  }
+
+  bool too_long() const {
+    const TileWindow& w = in_.window;
+    const bool single = w.column_end - w.column_begin == 1 && w.row_end - w.row_begin == 1;
+    return !single && entries_ > in_.most_entries;
+  }
+
+  AlignedVector<float> covering() { return coverings_.sum(); }
+
+ private:
+  struct Memory {
+    std::vector<float> low, high;
+    std::vector<std::uint16_t> bits;
+    AlignedVector<LightSpan> found;
+    AlignedVector<float> covering;
+  };
+
+  std::uint32_t spans_of(const Unit& unit, std::uint32_t b, Memory& m) {
+    const BoundBlock& block = unit.bounds.blocks[b];
+    const std::uint32_t first_light = unit.first_light + b * 16;
     if (in_.culling == Culling::clustered) {
       return LUCIOLE_FOR_ISA(in_.isa, cluster_lights(block, first_light, unit.band, circumscribed_icosahedron(),
-                                                     {low_.data(), high_.data()}, spans));
+                                                     {m.low.data(), m.high.data()}, m.found.data()));
     }
     return LUCIOLE_FOR_ISA(
         in_.isa, splat_lights(block, first_light, unit.band, circumscribed_geodesic(), in_.parts.cells().data(),
-                              lists_.covering.data(), bits_.data(), spans));
+                              m.covering.data(), m.bits.data(), m.found.data()));
   }
 
   const LightListInputs& in_;
-  LightLists& lists_;
-  std::vector<float> low_, high_;
-  std::vector<std::uint16_t> bits_;
+  Coverings coverings_;
+  std::atomic<std::size_t> entries_{0};
 };
-
-// visit(part, light) for all entries of a unit, lights ascending.
-template <class Visit>
-void for_each_entry(const Unit& unit, const Visit& visit) {
-  for (std::size_t i = 0; i < unit.span_count; ++i) {
-    const LightSpan& span = unit.spans[i];
-    for (std::uint32_t left = span.parts; left != 0; left &= left - 1) {
-      const std::uint32_t below = unit.band.occupied[span.tile] & ((left & -left) - 1);
-      visit(unit.band.first[span.tile] + static_cast<std::uint32_t>(std::popcount(below)), span.light);
-    }
-  }
-}
 
 // Returns the seconds that the calls took, summed over threads.
 template <class Body>
@@ -113,27 +167,42 @@ double for_each_unit(std::vector<Unit>& units, const Body& body) {
   return busy_seconds;
 }
 
+// Counts become places: tile after tile, and in a tile unit after unit, so that lights ascend.
+void lay_out(std::vector<Unit>& units, std::uint32_t tiles, std::vector<std::size_t>& begin) {
+  std::size_t place = 0;
+  for (std::size_t first = 0, last = 0; first < units.size(); first = last) {
+    while (last < units.size() && units[last].sub_region == units[first].sub_region) ++last;
+    for (std::uint32_t tile = 0; tile < tiles; ++tile) {
+      for (std::size_t u = first; u < last; ++u) {
+        if (units[u].next.empty()) continue;  // stopped before it began
+        const std::size_t count = units[u].next[tile];
+        units[u].next[tile] = place, place += count;
+      }
+      begin[std::size_t(units[first].sub_region) * tiles + tile + 1] = place;
+    }
+  }
+  // Sub-regions without any light.
+  for (std::size_t t = 1; t < begin.size(); ++t) begin[t] = std::max(begin[t], begin[t - 1]);
+}
+
 }  // namespace
 
 LightLists list_lights(const LightListInputs& in) {
   LightLists lists;
-  lists.begin.assign(std::size_t(in.parts.count()) + 1, 0);
-  if (in.culling == Culling::splatting) {
-    lists.covering.resize(std::size_t(in.parts.count()) * kGroupPixels);
-    std::fill(lists.covering.begin(), lists.covering.end(), 0.0f);
-  }
-  if (in.parts.count() == 0) return lists;
+  lists.begin.assign(in.parts.occupied().size() + 1, 0);
   std::vector<Unit> units = units_of(in);
-  // No two units have a part in common.
+  Rasteriser rasteriser(in);
+  lists.busy_seconds += for_each_unit(units, [&](Unit& unit) { rasteriser.run(unit); });
+  lists.complete = !rasteriser.too_long();
+  if (!lists.complete) return lists;
+  if (in.culling == Culling::splatting) lists.covering = rasteriser.covering();
+  lay_out(units, in.parts.tiles(), lists.begin);
+  lists.light.resize(lists.begin.back()), lists.parts.resize(lists.begin.back());
   lists.busy_seconds += for_each_unit(units, [&](Unit& unit) {
-    Rasteriser(in, lists).run(unit);
-    for_each_entry(unit, [&](std::uint32_t part, std::uint32_t) { ++lists.begin[part + 1]; });
-  });
-  std::partial_sum(lists.begin.begin(), lists.begin.end(), lists.begin.begin());
-  lists.index.resize(lists.begin.back());
-  std::vector<std::size_t> next = lists.begin;
-  lists.busy_seconds += for_each_unit(units, [&](Unit& unit) {
-    for_each_entry(unit, [&](std::uint32_t part, std::uint32_t light) { lists.index[next[part]++] = light; });
+    for (const LightSpan& span : unit.spans) {
+      const std::size_t at = unit.next[span.tile]++;
+      lists.light[at] = span.light, lists.parts[at] = span.parts;
+    }
   });
   return lists;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pass: bounds of lights x parts of tiles -> the ascending list of lights of each part. Each light's proxy is taken to
-// the tiles that it covers, count and all; then the lists are laid out one after the other, and filled.
+// Pass: bounds of lights x parts of tiles -> the ascending list of lights of each tile, with a bit per part that the
+// light reaches. Each light's proxy is taken to the tiles that it covers, once; then the lists are laid out one after
+// the other, as long as they are, and filled. Lists of single parts live only as long as their tile is shaded: written
+// out for the whole frame they took several times the memory (docs/decisions/rivals.md).
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -13,12 +15,13 @@
 namespace luciole {
 
 struct LightLists {
-  std::vector<std::size_t> begin;      // list of part p: index[begin[p]] ... index[begin[p + 1]]
-  AlignedVector<std::uint32_t> index;  // into the subset
+  bool complete = true;  // false: longer than allowed; nothing is listed
+  // Of all sub-regions' tiles (TileParts::tile); those outside the window have none. Tile t: [begin[t], begin[t + 1])
+  std::vector<std::size_t> begin;
+  AlignedVector<std::uint32_t> light;  // index in the subset
+  AlignedVector<std::uint32_t> parts;  // bits, as in TileParts::occupied
   AlignedVector<float> covering;       // splatting: per part and lane of CellPixels, how many lights cover the pixel
   double busy_seconds = 0;             // summed over threads
-
-  std::uint32_t length(std::uint32_t part) const { return static_cast<std::uint32_t>(begin[part + 1] - begin[part]); }
 };
 
 // The bounds of the lights that one sub-region sees.
@@ -36,6 +39,8 @@ struct LightListInputs {
   TileTest test;    // paper: the proxies alone; else no part that the surface of the light hides, and no cluster that
                     // fails the test
   Isa isa;
+  TileWindow window;
+  std::size_t most_entries;  // pairs of light and tile; a single block of tiles may have more
 };
 
 LightLists list_lights(const LightListInputs& inputs);

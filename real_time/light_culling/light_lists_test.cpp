@@ -11,6 +11,7 @@
 #include "ray_tracing/ray_scene.h"
 #include "real_time/geometry_buffer/geometry_buffer_pass.h"
 #include "real_time/light_range/light_range.h"
+#include "real_time/shading/shading_pass.h"
 #include "real_time/virtual_point_lights/virtual_point_lights.h"
 #include "scene/recipes/recipes.h"
 
@@ -77,29 +78,37 @@ Candidates candidates(const Stage& s, const ReachingLights<Emitter>& lights, Til
   std::vector<SubsetBounds> bounds;
   for (std::uint32_t r = 0; r < n * n; ++r)
     bounds.push_back({lights.bounds.data() + lights.begin[r] / 16, lights.count[r]});
-  const LightLists lists = list_lights({s.geometry, parts, bounds, n, Culling::clustered, test, s.settings.isa});
+  const LightLists lists = list_lights({s.geometry,
+                                        parts,
+                                        bounds,
+                                        n,
+                                        Culling::clustered,
+                                        test,
+                                        s.settings.isa,
+                                        {0, parts.columns(), 0, parts.rows()},
+                                        std::size_t(1) << 24});
   Candidates pairs;
   for (std::uint32_t tile = 0; tile < parts.occupied().size(); ++tile) {
     const std::uint32_t r = tile / (parts.columns() * parts.rows()),
                         in_region = tile % (parts.columns() * parts.rows());
     f32::Tile cluster =
         tile_slopes(s.geometry, {n, in_region % parts.columns(), in_region / parts.columns(), r % n, r / n});
-    std::uint32_t part = parts.first()[tile];
-    for (std::uint32_t left = parts.occupied()[tile]; left != 0; left &= left - 1, ++part) {
+    for (std::uint32_t left = parts.occupied()[tile]; left != 0; left &= left - 1) {
       const auto slice = static_cast<std::uint32_t>(std::countr_zero(left));
       cluster.near_low = depth_of_slice(parts.slices(), slice);
       cluster.near_high = depth_of_slice(parts.slices(), slice + 1);
-      std::size_t next = lists.begin[part];
+      std::size_t next = lists.begin[tile];
       for (std::uint32_t light = 0; light < lights.count[r]; ++light) {
-        const bool listed = next < lists.begin[part + 1] && lists.index[next] == light;
+        const bool in_tile = next < lists.begin[tile + 1] && lists.light[next] == light;
+        const bool listed = in_tile && (lists.parts[next] >> slice & 1u) != 0;
         const BoundBlock& block = bounds[r].blocks[light / 16];
         const bool reaches = block.row[BoundBlock::kRadius][light % 16] >= 0;
         const bool exact =
             reaches && f32::ellipsoid_touches_tile_exactly(ellipsoid_of(block, light % 16), cluster).near_half;
-        next += listed;
+        next += in_tile;
         pairs.listed += listed, pairs.exact += exact, pairs.missing += exact && !listed;
       }
-      EXPECT_EQ(next, lists.begin[part + 1]);  // the list is ascending
+      EXPECT_EQ(next, lists.begin[tile + 1]);  // the list is ascending
     }
   }
   return pairs;
@@ -130,6 +139,48 @@ TEST(Clusters, of_the_exact_test_are_just_those) {
   const Candidates paper = candidates(s, s.glossy, TileTest::paper);
   EXPECT_EQ(paper.missing, 0);
   EXPECT_GT(paper.listed / paper.exact, 1.2);  // proxies alone list more: light behind the light's surface as well
+}
+
+// Frames whose lists would be too long are listed window by window.
+TEST(Rivals, that_list_one_window_after_the_other_make_the_same_picture) {
+  for (const std::uint32_t interleave : {1u, 2u}) {
+    Stage s = stage("recipe:ring?alpha=0.1", interleave);
+    for (const Culling culling : {Culling::clustered, Culling::splatting}) {
+      s.settings.culling = culling;
+      const ReachingLights<ManyEmitter> none;
+      ShadingInputs inputs{s.geometry, s.diffuse, s.glossy, none, s.settings};
+      const ShadingOutputs whole = shade(inputs);
+      inputs.most_entries = 100;
+      const ShadingOutputs windows = shade(inputs);
+      EXPECT_EQ(windows.diffuse.accepted, whole.diffuse.accepted);
+      EXPECT_EQ(windows.glossy.accepted, whole.glossy.accepted);
+      EXPECT_GT(whole.glossy.accepted, 0u);
+      for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_EQ(windows.radiance.indirect.diffuse[c], whole.radiance.indirect.diffuse[c]);
+        EXPECT_EQ(windows.radiance.indirect.specular[c], whole.radiance.indirect.specular[c]);
+      }
+    }
+  }
+}
+
+TEST(Lists, that_grow_too_long_are_given_up_unless_they_are_one_blocks) {
+  const Stage s = stage("recipe:ring?alpha=0.1", 2);
+  const TileParts parts(s.geometry, 2, Culling::clustered);
+  std::vector<SubsetBounds> bounds;
+  for (std::uint32_t r = 0; r < 4; ++r)
+    bounds.push_back({s.diffuse.bounds.data() + s.diffuse.begin[r] / 16, s.diffuse.count[r]});
+  const auto lists = [&](TileWindow window, std::size_t most) {
+    return list_lights(
+        {s.geometry, parts, bounds, 2, Culling::clustered, TileTest::tight, s.settings.isa, window, most});
+  };
+  const TileWindow all{0, parts.columns(), 0, parts.rows()}, one{2, 3, 1, 2};
+  const LightLists whole = lists(all, std::size_t(1) << 24);
+  EXPECT_TRUE(whole.complete);
+  EXPECT_FALSE(lists(all, whole.light.size() - 1).complete);
+  EXPECT_TRUE(lists(all, whole.light.size()).complete);
+  const LightLists block = lists(one, 1);
+  EXPECT_TRUE(block.complete);
+  EXPECT_GT(block.light.size(), 1u);
 }
 
 }  // namespace

@@ -12,11 +12,17 @@
 
 namespace luciole {
 
-// Some rows of tiles of one sub-region. Borders between tiles lie halfway between the pixels on either side.
+// Tiles [column_begin, column_end) x [row_begin, row_end) of each sub-region.
+struct TileWindow {
+  std::uint32_t column_begin, column_end, row_begin, row_end;
+};
+
+// A window of the tiles of one sub-region. Borders between tiles lie halfway between the pixels on either side.
 struct TileBand {
   float x_first, x_step;  // slope right/forward of the border left of column c: x_first + c * x_step
   float y_first, y_step;  // slope up/forward of the border above row r: y_first + r * y_step, y_step < 0
-  std::uint32_t columns, row_begin, row_end;
+  TileWindow window;
+  std::uint32_t columns;          // of the sub-region
   const std::uint32_t* occupied;  // per tile of the sub-region, row by row (TileParts)
   const std::uint32_t* first;
   ClusterSlices slices;  // of all surfaces
@@ -36,18 +42,18 @@ struct LightSpan {
   std::uint32_t parts;  // bits, as in TileParts::occupied, never 0
 };
 
-// Depths of a proxy in each tile of a band, column by column: memory for tiles of the band.
+// Depths of a proxy in each tile of a window, column by column: memory for the window's tiles.
 struct TileDepths {
   float *low, *high;  // [m]
 };
 
-// Declares, in the namespace of one instruction set, what takes the up to 16 lights of a block to the tiles of a band.
-// Both write spans in ascending order of lights, at most 16 per tile of the band, and return how many.
+// Declares, in the namespace of one instruction set, what takes the up to 16 lights of a block to the tiles of a
+// window. Both write spans in ascending order of lights, at most 16 per tile of the window, and return how many.
 //   cluster_lights  by conservative rasterisation of an icosahedron
 //   splat_lights    by rasterisation of the back of a geodesic sphere, where it lies behind the pixel's surface
 //     cells     per part
 //     covering  per part and lane; each covered pixel's is raised by 1
-//     bits      zero, per cell of the band, and zero after the call
+//     bits      zero, per cell of the window's rows of tiles, and zero after the call
 #define LUCIOLE_DECLARE_PROXY_KERNELS(isa)                                                                 \
   namespace luciole::isa {                                                                                 \
   std::uint32_t cluster_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,   \

@@ -26,7 +26,7 @@ struct Screen {
     const float side = 16 * 2 * std::tan(static_cast<float>(kPi) / 6) / 135;
     band.x_first = -0.5f * kColumns * side, band.x_step = side;
     band.y_first = 0.5f * 135 / 16 * side, band.y_step = -side;
-    band.columns = kColumns, band.row_begin = 0, band.row_end = kRows;
+    band.window = {0, kColumns, 0, kRows}, band.columns = kColumns;
     band.occupied = occupied.data(), band.first = first.data();
     band.slices = cluster_slices_between(0.5f, 60.0f);
   }

@@ -108,20 +108,21 @@ LUCIOLE_FN void set_up(const ProxyEllipsoid& e, const GeodesicProxy& proxy, cons
   }
 }
 
-// The cells of a band, [row_begin, row_end) counted from the top of the picture.
+// The cells of a window, counted from the top left of the picture.
 struct CellRaster {
   const TileBand& band;
   const CellPixels* cells;
-  std::uint16_t* bits;
-  int columns, row_begin, row_end;
+  std::uint16_t* bits;  // whole rows
+  int columns;          // of the sub-region
+  ScreenRectangle window;
 };
 
 LUCIOLE_FN ScreenRectangle cells_of(const CellRaster& raster, const Triangles& t, int i) {
   ScreenRectangle r;
-  r.column_begin = larger(whole_below(t.row[kLeft][i] - kOverlap), 0);
-  r.column_end = smaller(whole_below(t.row[kRight][i] + kOverlap) + 1, raster.columns);
-  r.row_begin = larger(whole_below(t.row[kTop][i] - kOverlap), raster.row_begin);
-  r.row_end = smaller(whole_below(t.row[kBottom][i] + kOverlap) + 1, raster.row_end);
+  r.column_begin = larger(whole_below(t.row[kLeft][i] - kOverlap), raster.window.column_begin);
+  r.column_end = smaller(whole_below(t.row[kRight][i] + kOverlap) + 1, raster.window.column_end);
+  r.row_begin = larger(whole_below(t.row[kTop][i] - kOverlap), raster.window.row_begin);
+  r.row_end = smaller(whole_below(t.row[kBottom][i] + kOverlap) + 1, raster.window.row_end);
   return r;
 }
 
@@ -141,7 +142,7 @@ LUCIOLE_FN std::uint32_t covered_pixels(const CellPixels& cell, const Triangles&
 
 LUCIOLE_FN void rasterise(const CellRaster& raster, const ScreenRectangle& r, const Triangles& t, int i) {
   for (int row = r.row_begin; row < r.row_end; ++row) {
-    std::uint16_t* bits = raster.bits + (row - raster.row_begin) * raster.columns;
+    std::uint16_t* bits = raster.bits + (row - raster.window.row_begin) * raster.columns;
     for (int column = r.column_begin; column < r.column_end; ++column) {
       const auto tile =
           static_cast<std::uint32_t>(row / kCells) * raster.band.columns + static_cast<std::uint32_t>(column / kCells);
@@ -174,7 +175,7 @@ std::uint32_t splat_light(const ProxyEllipsoid& e, std::uint32_t light, const Ce
   const TileBand& band = raster.band;
   Triangles triangles;
   set_up(e, proxy, band, triangles);
-  ScreenRectangle touched = {raster.columns, 0, raster.row_end, 0};
+  ScreenRectangle touched = {raster.window.column_end, 0, raster.window.row_end, 0};
   for (int i = 0; i < kTriangles; ++i) {
     if (!(triangles.row[kLimit][i] > 0.0f)) continue;  // its outside is seen
     const ScreenRectangle r = cells_of(raster, triangles, i);
@@ -192,8 +193,9 @@ std::uint32_t splat_light(const ProxyEllipsoid& e, std::uint32_t light, const Ce
       std::uint32_t part = band.first[tile], cells = 0;
       for (std::uint32_t left = band.occupied[tile]; left != 0; left &= left - 1, ++part) {
         const int cell = __builtin_ctz(left);
-        std::uint16_t& bits = raster.bits[(tile_row * kCells + cell / kCells - raster.row_begin) * raster.columns +
-                                          tile_column * kCells + cell % kCells];
+        std::uint16_t& bits =
+            raster.bits[(tile_row * kCells + cell / kCells - raster.window.row_begin) * raster.columns +
+                        tile_column * kCells + cell % kCells];
         if (bits == 0) continue;
         const std::uint32_t kept =
             count_pixels(band, e.test.surface, raster.cells[part], bits, covering + std::size_t(part) * kGroupPixels);
@@ -211,12 +213,13 @@ std::uint32_t splat_light(const ProxyEllipsoid& e, std::uint32_t light, const Ce
 std::uint32_t splat_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,
                            const GeodesicProxy& proxy, const CellPixels* cells, float* covering, std::uint16_t* bits,
                            LightSpan* spans) {
-  const CellRaster raster = {band,
-                             cells,
-                             bits,
-                             static_cast<int>(band.columns) * kCells,
-                             static_cast<int>(band.row_begin) * kCells,
-                             static_cast<int>(band.row_end) * kCells};
+  const ScreenRectangle tiles = rectangle_of(band.window);
+  const CellRaster raster = {
+      band,
+      cells,
+      bits,
+      static_cast<int>(band.columns) * kCells,
+      {tiles.column_begin * kCells, tiles.column_end * kCells, tiles.row_begin * kCells, tiles.row_end * kCells}};
   std::uint32_t count = 0;
   for (std::uint32_t near = lights_near(block, band); near != 0; near &= near - 1) {
     const int lane = __builtin_ctz(near);

@@ -21,6 +21,7 @@ class TileParts {
   // Tiles of one sub-region; all have as many, and sub-region s is row s / n, column s % n.
   std::uint32_t columns() const { return columns_; }
   std::uint32_t rows() const { return rows_; }
+  std::uint32_t tiles() const { return columns_ * rows_; }
   std::uint32_t tile(const TileAddress& at) const;  // its number among the tiles of all sub-regions
   const ClusterSlices& slices() const { return slices_; }
 

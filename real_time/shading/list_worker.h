@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rivals of tiled culling: all lights are listed before the first pixel is shaded, per cluster or per cell; then
-// each thread walks the lists of one tile after the other.
+// The rivals of tiled culling: all lights are listed before the first pixel is shaded; then each thread takes the lists
+// of one tile after the other apart, per cluster or per cell, and walks them.
 #pragma once
 #include "real_time/light_culling/light_lists.h"
 #include "real_time/shading/group_shader.h"
 
 namespace luciole {
 
-// The lists of a frame.
+// The lists of a window of the frame.
 class PartLists {
  public:
-  explicit PartLists(const ShadingInputs& inputs);
+  PartLists(const ShadingInputs& inputs, const TileParts& parts, const TileWindow& window);
 
+  bool complete() const { return diffuse_.complete && glossy_.complete && many_.complete; }
   const TileParts& parts() const { return parts_; }
   const LightLists& diffuse() const { return diffuse_; }
   const LightLists& glossy() const { return glossy_; }
@@ -19,7 +20,7 @@ class PartLists {
   double busy_seconds() const;  // that culling took, summed over threads
 
  private:
-  TileParts parts_;
+  const TileParts& parts_;
   LightLists diffuse_, glossy_, many_;
 };
 
@@ -34,15 +35,23 @@ class ListWorker {
   ShadingCounts counts;  // of this thread
 
  private:
+  // What the tile's pixels see, all of it in one subset.
+  struct TileSeen {
+    std::uint32_t tile, subset;
+  };
   template <class Emitter>
-  void add_lights(const ReachingLights<Emitter>& lights, const LightLists& lists, std::uint32_t subset,
-                  LightCounts& added, Radiance& radiance, Radiance* part = nullptr);
+  void add_lights(const ReachingLights<Emitter>& lights, const LightLists& lists, TileSeen seen, LightCounts& added,
+                  Radiance& radiance, Radiance* part = nullptr);
+  // The lists of the tile's parts, one after the other.
+  void list_parts(const LightLists& lists, std::uint32_t tile);
 
   const ShadingInputs& inputs_;
   const PartLists& lists_;
   ShadingOutputs& outputs_;
   GroupShader shader_;
   ScreenTile tile_;
+  AlignedVector<std::uint32_t> index_;
+  std::vector<std::size_t> part_begin_;  // list of the tile's p-th part: [part_begin_[p], part_begin_[p + 1])
   float listed_[kGroupPixels];
 };
 

@@ -27,21 +27,43 @@ void add_counts(LightCounts& to, const LightCounts& from) {
   to.listed += from.listed, to.evaluated += from.evaluated, to.accepted += from.accepted;
 }
 
+// All blocks of 16n x 16n pixels.
+TileWindow whole_frame(const ShadingInputs& inputs) {
+  const std::uint32_t side = kTileSide * inputs.settings.interleave;
+  return {0, (inputs.geometry.width + side - 1) / side, 0, (inputs.geometry.height + side - 1) / side};
+}
+
 // make_worker() gives each range of blocks a worker of its own; its memory is reused from block to block.
 template <class MakeWorker>
-void run_blocks(const ShadingInputs& inputs, ShadingOutputs& out, const MakeWorker& make_worker) {
-  const std::uint32_t side = kTileSide * inputs.settings.interleave;
-  const std::uint32_t blocks_x = (inputs.geometry.width + side - 1) / side;
-  const std::uint32_t blocks_y = (inputs.geometry.height + side - 1) / side;
+void run_blocks(const TileWindow& window, ShadingOutputs& out, const MakeWorker& make_worker) {
+  const std::size_t columns = window.column_end - window.column_begin, rows = window.row_end - window.row_begin;
   std::mutex merging;  // sums of integers: the order of merging does not show
-  parallel_for(std::size_t(blocks_x) * blocks_y, 1, [&](std::size_t begin, std::size_t end) {
+  parallel_for(columns * rows, 1, [&](std::size_t begin, std::size_t end) {
     auto worker = make_worker();
     for (std::size_t block = begin; block < end && !stop_requested(); ++block) {
-      worker.run_block(static_cast<std::uint32_t>(block % blocks_x), static_cast<std::uint32_t>(block / blocks_x));
+      worker.run_block(window.column_begin + static_cast<std::uint32_t>(block % columns),
+                       window.row_begin + static_cast<std::uint32_t>(block / columns));
     }
     const std::scoped_lock lock(merging);
     out.add(worker.counts);
   });
+}
+
+// Lists all lights of a window, then shades it; halves of it one after the other where the lists grow too long.
+void shade_listed(const ShadingInputs& inputs, const TileParts& parts, const TileWindow& window, ShadingOutputs& out) {
+  {
+    const PartLists lists(inputs, parts, window);
+    out.culling_seconds += lists.busy_seconds();
+    if (lists.complete()) return run_blocks(window, out, [&] { return ListWorker(inputs, lists, out); });
+  }
+  TileWindow first = window, second = window;
+  if (window.row_end - window.row_begin > 1) {
+    first.row_end = second.row_begin = (window.row_begin + window.row_end) / 2;
+  } else {
+    first.column_end = second.column_begin = (window.column_begin + window.column_end) / 2;
+  }
+  shade_listed(inputs, parts, first, out);
+  shade_listed(inputs, parts, second, out);
 }
 
 }  // namespace
@@ -69,11 +91,11 @@ ShadingOutputs shade(const ShadingInputs& inputs) {
     out.lights_false.assign(pixels, 0.0f);
   }
   if (inputs.settings.culling == Culling::clustered || inputs.settings.culling == Culling::splatting) {
-    const PartLists lists(inputs);
-    out.culling_seconds = lists.busy_seconds();
-    run_blocks(inputs, out, [&] { return ListWorker(inputs, lists, out); });
+    const TileParts parts(inputs.geometry, inputs.settings.interleave, inputs.settings.culling);
+    out.culling_seconds += parts.busy_seconds();
+    shade_listed(inputs, parts, whole_frame(inputs), out);
   } else {
-    run_blocks(inputs, out, [&] { return TileWorker(inputs, out); });
+    run_blocks(whole_frame(inputs), out, [&] { return TileWorker(inputs, out); });
   }
   return out;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pass: geometry buffer x reaching lights -> noisy radiance. Tiled culling and shading go together, tile by tile, so
-// that a light list lives only as long as its tile is in the cache ([TH17] §6). The rivals list all lights first.
+// that a light list lives only as long as its tile is in the cache ([TH17] §6). The rivals list all lights of a window
+// first, which is the whole frame unless its lists are too long.
 #pragma once
 #include <cstdint>
 
@@ -23,6 +24,9 @@ struct ShadingInputs {
   const RayScene* shadows = nullptr;  // one shadow ray per accepted one of `many`, if given
   bool count_per_pixel = false;       // fill lights_listed and lights_false
   bool lobes_apart = false;           // fill from_diffuse and from_glossy
+  // Pairs of light and tile that the rivals of tiled culling list at once, per kind: 20 bytes each, 320 MiB. A frame
+  // that has more is listed and shaded window by window.
+  std::size_t most_entries = std::size_t(1) << 24;
 };
 
 // Counts of one kind of lobe. A list belongs to one depth half of one tile, or to one cluster; splatting gives lights
