@@ -107,7 +107,6 @@ class Rasteriser {
     const std::size_t tiles = std::size_t(w.column_end - w.column_begin) * (w.row_end - w.row_begin);
     Memory memory;
     memory.low.resize(tiles), memory.high.resize(tiles), memory.found.resize(16 * tiles);
-    memory.bits.assign(std::size_t(in_.parts.columns()) * (w.row_end - w.row_begin) * kGroupPixels, 0);
     if (in_.culling == Culling::splatting) memory.covering = coverings_.take();
     unit.next.assign(in_.parts.tiles(), 0);
     for (std::uint32_t b = 0; b * 16 < unit.bounds.count && !too_long() && !stop_requested(); ++b) {
@@ -130,7 +129,6 @@ class Rasteriser {
  private:
   struct Memory {
     std::vector<float> low, high;
-    std::vector<std::uint16_t> bits;
     AlignedVector<LightSpan> found;
     AlignedVector<float> covering;
   };
@@ -142,9 +140,8 @@ class Rasteriser {
       return LUCIOLE_FOR_ISA(in_.isa, cluster_lights(block, first_light, unit.band, circumscribed_icosahedron(),
                                                      {m.low.data(), m.high.data()}, m.found.data()));
     }
-    return LUCIOLE_FOR_ISA(
-        in_.isa, splat_lights(block, first_light, unit.band, circumscribed_geodesic(), in_.parts.cells().data(),
-                              m.covering.data(), m.bits.data(), m.found.data()));
+    return LUCIOLE_FOR_ISA(in_.isa, splat_lights(block, first_light, unit.band, circumscribed_geodesic(),
+                                                 in_.parts.cells(), m.covering.data(), m.found.data()));
   }
 
   const LightListInputs& in_;
@@ -185,6 +182,17 @@ void lay_out(std::vector<Unit>& units, std::uint32_t tiles, std::vector<std::siz
   for (std::size_t t = 1; t < begin.size(); ++t) begin[t] = std::max(begin[t], begin[t - 1]);
 }
 
+template <class Vector>
+std::size_t bytes_of(const Vector& values) {
+  return values.capacity() * sizeof(values[0]);
+}
+
+std::size_t bytes_of(const std::vector<Unit>& units, const LightLists& lists) {
+  std::size_t bytes = bytes_of(lists.begin) + bytes_of(lists.light) + bytes_of(lists.parts) + bytes_of(lists.covering);
+  for (const Unit& unit : units) bytes += bytes_of(unit.spans) + bytes_of(unit.next);
+  return bytes;
+}
+
 }  // namespace
 
 LightLists list_lights(const LightListInputs& in) {
@@ -198,6 +206,7 @@ LightLists list_lights(const LightListInputs& in) {
   if (in.culling == Culling::splatting) lists.covering = rasteriser.covering();
   lay_out(units, in.parts.tiles(), lists.begin);
   lists.light.resize(lists.begin.back()), lists.parts.resize(lists.begin.back());
+  lists.bytes = bytes_of(units, lists);
   lists.busy_seconds += for_each_unit(units, [&](Unit& unit) {
     for (const LightSpan& span : unit.spans) {
       const std::size_t at = unit.next[span.tile]++;

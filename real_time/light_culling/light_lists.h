@@ -22,6 +22,7 @@ struct LightLists {
   AlignedVector<std::uint32_t> parts;  // bits, as in TileParts::occupied
   AlignedVector<float> covering;       // splatting: per part and lane of CellPixels, how many lights cover the pixel
   double busy_seconds = 0;             // summed over threads
+  std::size_t bytes = 0;               // at most in use at once, what is gone by now included
 };
 
 // The bounds of the lights that one sub-region sees.

@@ -35,6 +35,12 @@ struct alignas(64) CellPixels {
   float depth[kGroupPixels];               // [m]
 };
 
+// Per part of the sub-regions (TileParts).
+struct SplatCells {
+  const CellPixels* pixels;
+  const float* nearest;  // least depth of the cell's pixels [m]
+};
+
 // Parts of a tile that a light's proxy covers.
 struct LightSpan {
   std::uint32_t light;  // in the subset
@@ -51,16 +57,13 @@ struct TileDepths {
 // window. Both write spans in ascending order of lights, at most 16 per tile of the window, and return how many.
 //   cluster_lights  by conservative rasterisation of an icosahedron
 //   splat_lights    by rasterisation of the back of a geodesic sphere, where it lies behind the pixel's surface
-//     cells     per part
 //     covering  per part and lane; each covered pixel's is raised by 1
-//     bits      zero, per cell of the window's rows of tiles, and zero after the call
-#define LUCIOLE_DECLARE_PROXY_KERNELS(isa)                                                                 \
-  namespace luciole::isa {                                                                                 \
-  std::uint32_t cluster_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,   \
-                               const IcosahedronProxy& proxy, const TileDepths& depths, LightSpan* spans); \
-  std::uint32_t splat_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,     \
-                             const GeodesicProxy& proxy, const CellPixels* cells, float* covering,         \
-                             std::uint16_t* bits, LightSpan* spans);                                       \
+#define LUCIOLE_DECLARE_PROXY_KERNELS(isa)                                                                            \
+  namespace luciole::isa {                                                                                            \
+  std::uint32_t cluster_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,              \
+                               const IcosahedronProxy& proxy, const TileDepths& depths, LightSpan* spans);            \
+  std::uint32_t splat_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,                \
+                             const GeodesicProxy& proxy, const SplatCells& cells, float* covering, LightSpan* spans); \
   }
 }  // namespace luciole
 LUCIOLE_DECLARE_PROXY_KERNELS(avx512)

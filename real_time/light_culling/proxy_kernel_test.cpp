@@ -194,9 +194,8 @@ float covering(Isa isa, const BoundBlock& block, const GeodesicProxy& proxy, rea
   cell.x[kLane] = static_cast<float>(point.x / point.z), cell.y[kLane] = static_cast<float>(point.y / point.z);
   cell.depth[kLane] = static_cast<float>(point.z);
   alignas(64) float counts[kGroupPixels] = {};
-  std::vector<std::uint16_t> bits(kTiles * 16);
   std::vector<LightSpan> spans(16 * kTiles);
-  LUCIOLE_FOR_ISA(isa, splat_lights(block, 0, screen.band, proxy, &cell, counts, bits.data(), spans.data()));
+  LUCIOLE_FOR_ISA(isa, splat_lights(block, 0, screen.band, proxy, {&cell, &cell.depth[kLane]}, counts, spans.data()));
   return counts[kLane];
 }
 

@@ -19,16 +19,18 @@ constexpr int kTriangles = GeodesicProxy::kTriangles;
 constexpr int kCells = 4;              // per side of a tile
 constexpr float kOverlap = 1.0f / 16;  // of a cell's side: where in the pixel the ray goes, and rounding
 constexpr float kFar = 1e30f;
+constexpr int kRegisters = kTriangles / kLanes;
 
 // A linear function of a ray's slopes: x * ray.x + y * ray.y + z.
 enum Row : int {
   kEdge = 0,    // three functions, not negative inside the triangle
   kPlane = 9,   // one function: the triangle's depth along the ray is the limit over it
-  kLimit = 12,  // > 0: the triangle is seen from inside
+  kLimit = 12,  // > 0: the triangle is seen from inside; others have no cells
   kLeft,
   kRight,
   kTop,
-  kBottom,  // cells with fractions, of the part beyond the nearest surface; left > right: none
+  kBottom,    // cells with fractions, of the part beyond the nearest surface; left > right: none
+  kFarthest,  // depth of the triangle's farthest corner, with what rounding may lose [m]
   kRows
 };
 
@@ -63,6 +65,10 @@ struct CellExtent {
     left = select(chosen, min(x, left), left), right = select(chosen, max(x, right), right);
     top = select(chosen, min(y, top), top), bottom = select(chosen, max(y, bottom), bottom);
   }
+  LUCIOLE_FN void add(const CellExtent& e, mask chosen) {
+    left = select(chosen, min(e.left, left), left), right = select(chosen, max(e.right, right), right);
+    top = select(chosen, min(e.top, top), top), bottom = select(chosen, max(e.bottom, bottom), bottom);
+  }
 };
 
 // Only what lies beyond the nearest surface can cover a pixel.
@@ -82,11 +88,32 @@ LUCIOLE_FN CellExtent extent_of(const TileBand& band, const real3 (&corner)[3]) 
   return extent;
 }
 
+LUCIOLE_FN float least(real v) {
+  alignas(64) float lanes[kLanes];
+  store(lanes, v);
+  float low = lanes[0];
+  for (int lane = 1; lane < kLanes; ++lane) low = lanes[lane] < low ? lanes[lane] : low;
+  return low;
+}
+LUCIOLE_FN float greatest(real v) { return -least(-v); }
+
+// What all triangles reach.
+struct Splat {
+  ScreenRectangle cells;
+  float farthest;  // [m]
+};
+
 // Triangle by triangle, one per lane. In the stretched space the sphere is at the origin and the eye at -stretched.
-LUCIOLE_FN void set_up(const ProxyEllipsoid& e, const GeodesicProxy& proxy, const TileBand& band, Triangles& out) {
+LUCIOLE_FN Splat set_up(const ProxyEllipsoid& e, const GeodesicProxy& proxy, const TileBand& band, Triangles& out) {
+  CellExtent all;
+  real farthest = -kFar;
+  const real depth_rounding = 4e-6f * (abs(e.test.centre.z) + e.inverse.m22);
   for (int first = 0; first < kTriangles; first += kLanes) {
     const auto put = [&](int row, real value) { store(out.row[row] + first, value); };
     const auto put_function = [&](int row, LinearFunction f) { put(row, f.x), put(row + 1, f.y), put(row + 2, f.z); };
+    const real3 normal =
+        real3(load(proxy.normal[0] + first), load(proxy.normal[1] + first), load(proxy.normal[2] + first));
+    const real limit = load(proxy.distance + first) + dot(normal, e.test.stretched);
     real3 stretched_corner[3], corner[3];
     for (int k = 0; k < 3; ++k) {
       stretched_corner[k] = load_corner(proxy, k, first);
@@ -99,34 +126,25 @@ LUCIOLE_FN void set_up(const ProxyEllipsoid& e, const GeodesicProxy& proxy, cons
       edge.z += rounding(e.test.factor, side);  // no pixel falls between two triangles
       put_function(kEdge + 3 * k, edge);
     }
-    const real3 normal =
-        real3(load(proxy.normal[0] + first), load(proxy.normal[1] + first), load(proxy.normal[2] + first));
     put_function(kPlane, of_ray(e.test.factor, normal));
-    put(kLimit, load(proxy.distance + first) + dot(normal, e.test.stretched));
-    const CellExtent extent = extent_of(band, corner);
+    put(kLimit, limit);
+    const CellExtent beyond = extent_of(band, corner);
+    CellExtent extent;
+    extent.add(beyond, limit > 0.0f), all.add(beyond, limit > 0.0f);
     put(kLeft, extent.left), put(kRight, extent.right), put(kTop, extent.top), put(kBottom, extent.bottom);
+    const real farthest_corner = max(max(corner[0].z, corner[1].z), corner[2].z) + depth_rounding;
+    put(kFarthest, farthest_corner);
+    farthest = max(farthest_corner, farthest);
   }
+  const ScreenRectangle w = rectangle_of(band.window);
+  return {{larger(whole_below(least(all.left) - kOverlap), w.column_begin * kCells),
+           smaller(whole_below(greatest(all.right) + kOverlap) + 1, w.column_end * kCells),
+           larger(whole_below(least(all.top) - kOverlap), w.row_begin * kCells),
+           smaller(whole_below(greatest(all.bottom) + kOverlap) + 1, w.row_end * kCells)},
+          greatest(farthest)};
 }
 
-// The cells of a window, counted from the top left of the picture.
-struct CellRaster {
-  const TileBand& band;
-  const CellPixels* cells;
-  std::uint16_t* bits;  // whole rows
-  int columns;          // of the sub-region
-  ScreenRectangle window;
-};
-
-LUCIOLE_FN ScreenRectangle cells_of(const CellRaster& raster, const Triangles& t, int i) {
-  ScreenRectangle r;
-  r.column_begin = larger(whole_below(t.row[kLeft][i] - kOverlap), raster.window.column_begin);
-  r.column_end = smaller(whole_below(t.row[kRight][i] + kOverlap) + 1, raster.window.column_end);
-  r.row_begin = larger(whole_below(t.row[kTop][i] - kOverlap), raster.window.row_begin);
-  r.row_end = smaller(whole_below(t.row[kBottom][i] + kOverlap) + 1, raster.window.row_end);
-  return r;
-}
-
-// Which pixels of a cell the triangle covers.
+// Which pixels of a cell one triangle covers.
 LUCIOLE_FN std::uint32_t covered_pixels(const CellPixels& cell, const Triangles& t, int i) {
   const auto at = [&](int row, real x, real y) {
     return t.row[row][i] * x + (t.row[row + 1][i] * y + t.row[row + 2][i]);
@@ -140,19 +158,38 @@ LUCIOLE_FN std::uint32_t covered_pixels(const CellPixels& cell, const Triangles&
   return bits;
 }
 
-LUCIOLE_FN void rasterise(const CellRaster& raster, const ScreenRectangle& r, const Triangles& t, int i) {
-  for (int row = r.row_begin; row < r.row_end; ++row) {
-    std::uint16_t* bits = raster.bits + (row - raster.window.row_begin) * raster.columns;
-    for (int column = r.column_begin; column < r.column_end; ++column) {
-      const auto tile =
-          static_cast<std::uint32_t>(row / kCells) * raster.band.columns + static_cast<std::uint32_t>(column / kCells);
-      const std::uint32_t bit = 1u << (row % kCells * kCells + column % kCells), occupied = raster.band.occupied[tile];
-      if ((occupied & bit) == 0) continue;
-      const std::uint32_t part =
-          raster.band.first[tile] + static_cast<std::uint32_t>(__builtin_popcount(occupied & (bit - 1)));
-      bits[column] = static_cast<std::uint16_t>(bits[column] | covered_pixels(raster.cells[part], t, i));
+// Triangles that reach a row of cells, a bit each.
+struct RowTriangles {
+  std::uint32_t bits[kRegisters];
+};
+
+LUCIOLE_FN RowTriangles triangles_of_row(const Triangles& t, int row) {
+  const float top = static_cast<float>(row) - kOverlap, bottom = static_cast<float>(row + 1) + kOverlap;
+  RowTriangles of_row;
+  for (int r = 0; r < kRegisters; ++r) {
+    const int first = r * kLanes;
+    of_row.bits[r] = lane_bits(load(t.row[kTop] + first) <= bottom && load(t.row[kBottom] + first) >= top);
+  }
+  return of_row;
+}
+
+// Which pixels of a cell all triangles cover. Triangles that end before the cell's nearest pixel are not looked at, as
+// hierarchical depth tests leave them out.
+LUCIOLE_FN std::uint32_t covered_pixels(const CellPixels& cell, float nearest, const Triangles& t,
+                                        const RowTriangles& row, int column) {
+  const float left = static_cast<float>(column) - kOverlap, right = static_cast<float>(column + 1) + kOverlap;
+  std::uint32_t covered = 0;
+  for (int r = 0; r < kRegisters; ++r) {
+    if (row.bits[r] == 0) continue;
+    const int first = r * kLanes;
+    const mask meets = load(t.row[kLeft] + first) <= right && load(t.row[kRight] + first) >= left &&
+                       load(t.row[kFarthest] + first) >= nearest;
+    for (std::uint32_t bits = row.bits[r] & lane_bits(meets); bits != 0; bits &= bits - 1) {
+      covered |= covered_pixels(cell, t, first + __builtin_ctz(bits));
+      if (covered == 0xffffu) return covered;  // each pixel is covered once
     }
   }
+  return covered;
 }
 
 // Of the covered pixels, those above the light's surface; raises their counts.
@@ -170,39 +207,31 @@ LUCIOLE_FN std::uint32_t count_pixels(const TileBand& band, const SurfacePlane& 
   return kept;
 }
 
-std::uint32_t splat_light(const ProxyEllipsoid& e, std::uint32_t light, const CellRaster& raster,
+std::uint32_t splat_light(const ProxyEllipsoid& e, std::uint32_t light, const TileBand& band, const SplatCells& cells,
                           const GeodesicProxy& proxy, float* covering, LightSpan* spans) {
-  const TileBand& band = raster.band;
   Triangles triangles;
-  set_up(e, proxy, band, triangles);
-  ScreenRectangle touched = {raster.window.column_end, 0, raster.window.row_end, 0};
-  for (int i = 0; i < kTriangles; ++i) {
-    if (!(triangles.row[kLimit][i] > 0.0f)) continue;  // its outside is seen
-    const ScreenRectangle r = cells_of(raster, triangles, i);
-    if (is_empty(r)) continue;
-    rasterise(raster, r, triangles, i);
-    touched.column_begin = smaller(touched.column_begin, r.column_begin);
-    touched.column_end = larger(touched.column_end, r.column_end);
-    touched.row_begin = smaller(touched.row_begin, r.row_begin), touched.row_end = larger(touched.row_end, r.row_end);
-  }
-  if (is_empty(touched)) return 0;
+  const Splat splat = set_up(e, proxy, band, triangles);
+  const ScreenRectangle& all = splat.cells;
+  if (is_empty(all)) return 0;
   std::uint32_t count = 0;
-  for (int tile_row = touched.row_begin / kCells; tile_row * kCells < touched.row_end; ++tile_row) {
-    for (int tile_column = touched.column_begin / kCells; tile_column * kCells < touched.column_end; ++tile_column) {
+  for (int tile_row = all.row_begin / kCells; tile_row * kCells < all.row_end; ++tile_row) {
+    RowTriangles rows[kCells];
+    for (int k = 0; k < kCells; ++k) rows[k] = triangles_of_row(triangles, tile_row * kCells + k);
+    for (int tile_column = all.column_begin / kCells; tile_column * kCells < all.column_end; ++tile_column) {
       const auto tile = static_cast<std::uint32_t>(tile_row) * band.columns + static_cast<std::uint32_t>(tile_column);
-      std::uint32_t part = band.first[tile], cells = 0;
+      std::uint32_t part = band.first[tile], reached = 0;
       for (std::uint32_t left = band.occupied[tile]; left != 0; left &= left - 1, ++part) {
+        if (cells.nearest[part] > splat.farthest) continue;
         const int cell = __builtin_ctz(left);
-        std::uint16_t& bits =
-            raster.bits[(tile_row * kCells + cell / kCells - raster.window.row_begin) * raster.columns +
-                        tile_column * kCells + cell % kCells];
-        if (bits == 0) continue;
+        const CellPixels& pixels = cells.pixels[part];
+        const std::uint32_t covered = covered_pixels(pixels, cells.nearest[part], triangles, rows[cell / kCells],
+                                                     tile_column * kCells + cell % kCells);
+        if (covered == 0) continue;
         const std::uint32_t kept =
-            count_pixels(band, e.test.surface, raster.cells[part], bits, covering + std::size_t(part) * kGroupPixels);
-        bits = 0;
-        if (kept != 0) cells |= 1u << cell;
+            count_pixels(band, e.test.surface, pixels, covered, covering + std::size_t(part) * kGroupPixels);
+        if (kept != 0) reached |= 1u << cell;
       }
-      if (cells != 0) spans[count++] = {light, tile, cells};
+      if (reached != 0) spans[count++] = {light, tile, reached};
     }
   }
   return count;
@@ -211,19 +240,11 @@ std::uint32_t splat_light(const ProxyEllipsoid& e, std::uint32_t light, const Ce
 }  // namespace
 
 std::uint32_t splat_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,
-                           const GeodesicProxy& proxy, const CellPixels* cells, float* covering, std::uint16_t* bits,
-                           LightSpan* spans) {
-  const ScreenRectangle tiles = rectangle_of(band.window);
-  const CellRaster raster = {
-      band,
-      cells,
-      bits,
-      static_cast<int>(band.columns) * kCells,
-      {tiles.column_begin * kCells, tiles.column_end * kCells, tiles.row_begin * kCells, tiles.row_end * kCells}};
+                           const GeodesicProxy& proxy, const SplatCells& cells, float* covering, LightSpan* spans) {
   std::uint32_t count = 0;
   for (std::uint32_t near = lights_near(block, band); near != 0; near &= near - 1) {
     const int lane = __builtin_ctz(near);
-    count += splat_light(load_proxy(block, lane), first_light + static_cast<std::uint32_t>(lane), raster, proxy,
+    count += splat_light(load_proxy(block, lane), first_light + static_cast<std::uint32_t>(lane), band, cells, proxy,
                          covering, spans + count);
   }
   return count;

@@ -30,7 +30,7 @@ class TileParts {
   const std::vector<std::uint32_t>& first() const { return first_; }
   std::uint32_t count() const { return count_; }
 
-  const AlignedVector<CellPixels>& cells() const { return cells_; }  // per part; none of clusters
+  SplatCells cells() const { return {cells_.data(), nearest_.data()}; }  // none of clusters
 
   // Reads a tile's pixels, group by group, none of two parts.
   void read(const TileAddress& address, ScreenTile& tile) const;
@@ -50,6 +50,7 @@ class TileParts {
   ClusterSlices slices_{};
   std::vector<std::uint32_t> occupied_, first_;
   AlignedVector<CellPixels> cells_;
+  AlignedVector<float> nearest_;
   double busy_seconds_ = 0;
 };
 

@@ -18,6 +18,7 @@ class PartLists {
   const LightLists& glossy() const { return glossy_; }
   const LightLists& many() const { return many_; }
   double busy_seconds() const;  // that culling took, summed over threads
+  std::size_t bytes() const { return diffuse_.bytes + glossy_.bytes + many_.bytes; }
 
  private:
   const TileParts& parts_;

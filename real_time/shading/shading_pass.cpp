@@ -54,7 +54,10 @@ void shade_listed(const ShadingInputs& inputs, const TileParts& parts, const Til
   {
     const PartLists lists(inputs, parts, window);
     out.culling_seconds += lists.busy_seconds();
-    if (lists.complete()) return run_blocks(window, out, [&] { return ListWorker(inputs, lists, out); });
+    if (lists.complete()) {
+      out.list_bytes = std::max(out.list_bytes, lists.bytes()), ++out.windows;
+      return run_blocks(window, out, [&] { return ListWorker(inputs, lists, out); });
+    }
   }
   TileWindow first = window, second = window;
   if (window.row_end - window.row_begin > 1) {

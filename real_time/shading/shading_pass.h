@@ -49,6 +49,8 @@ struct ShadingCounts {
 struct ShadingOutputs : ShadingCounts {
   ShadedRadiance radiance;
   Plane lights_listed, lights_false;  // per pixel, all kinds; empty unless asked for
+  // Of the rivals of tiled culling: what their lists of the longest window took [bytes], and how many windows.
+  std::size_t list_bytes = 0, windows = 0;
 };
 
 ShadingOutputs shade(const ShadingInputs& inputs);
