@@ -31,15 +31,18 @@ void GroupShader::add_to_pixels(const PixelGroup& group, Radiance& radiance) con
   }
 }
 
+// Counts are whole numbers below 2^24, kept as floats by the kernel.
 void GroupShader::count(const PixelGroup& group, const float (&listed)[kGroupPixels], LightCounts& counts) {
+  std::uint32_t accepted_pairs = 0, listed_pairs = 0;
   for (std::uint32_t lane = 0; lane < group.count; ++lane) {
-    const std::uint32_t pixel = group.pixel[lane];
-    counts.accepted += static_cast<std::uint64_t>(sum_.accepted[lane]);
-    counts.listed += static_cast<std::uint64_t>(listed[lane]);
-    if (inputs_.count_per_pixel) {
-      outputs_.lights_listed[pixel] += listed[lane];
-      outputs_.lights_false[pixel] += listed[lane] - sum_.accepted[lane];
-    }
+    accepted_pairs += static_cast<std::uint32_t>(static_cast<std::int32_t>(sum_.accepted[lane]));
+    listed_pairs += static_cast<std::uint32_t>(static_cast<std::int32_t>(listed[lane]));
+  }
+  counts.accepted += accepted_pairs, counts.listed += listed_pairs;
+  if (!inputs_.count_per_pixel) return;
+  for (std::uint32_t lane = 0; lane < group.count; ++lane) {
+    outputs_.lights_listed[group.pixel[lane]] += listed[lane];
+    outputs_.lights_false[group.pixel[lane]] += listed[lane] - sum_.accepted[lane];
   }
 }
 

@@ -24,8 +24,8 @@ struct ShadingInputs {
   const RayScene* shadows = nullptr;  // one shadow ray per accepted one of `many`, if given
   bool count_per_pixel = false;       // fill lights_listed and lights_false
   bool lobes_apart = false;           // fill from_diffuse and from_glossy
-  // Pairs of light and tile that the rivals of tiled culling list at once, per kind: 20 bytes each, 320 MiB. A frame
-  // that has more is listed and shaded window by window.
+  // Pairs of light and tile that the rivals of tiled culling list at once, per kind: 20 bytes each and room to grow,
+  // half a GiB. A frame that has more is listed and shaded window by window.
   std::size_t most_entries = std::size_t(1) << 24;
 };
 
