@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "base/parallel.h"
+#include "benchmarks/learned_visibility.h"
 #include "benchmarks/stage.h"
 #include "offline/light_sample/light_point.h"
 #include "offline/light_sample/make_light_sampler.h"
@@ -23,14 +25,18 @@ namespace {
 constexpr std::uint32_t kPixels = 8192;  // of the picture
 constexpr std::uint32_t kPlaces = 4;     // of the camera's ray in each
 constexpr std::uint32_t kPasses = 8;     // new ranges, for the same rays
-constexpr int kSamples[] = {32, 8};      // of the whole picture, at 1 and 3 bounces
+constexpr float kLearnedCells = 64;      // of the scene's diagonal: edge of a cube in which visibility is shared
+constexpr std::uint32_t kLearnedLights = 32, kLearningPasses = 64;
+constexpr int kSamples[] = {32, 8};  // of the whole picture, at 1 and 3 bounces
 
 // Direct light of lamps and emissive triangles at one surface point, once.
 struct Sample {
   Vec3 first, second;  // the chosen light's, for two places on it: what a shadow ray brings, weighted
   Vec3 correction;     // of its colour
   Vec3 unoccluded;     // mean of both, were nothing in the way
-  Vec3 bsdf;           // what the ray that the BSDF samples brings
+  std::uint32_t chosen = kNoLight;
+  Receiver receiver{};
+  Vec3 bsdf;  // what the ray that the BSDF samples brings
 };
 
 // One channel of one camera ray: sums over passes, and of products that are needed.
@@ -113,6 +119,26 @@ class DirectLight {
         sampler_(make_light_sampler({*stage.scene, lights_, settings_, receivers_, rays.bounds().diagonal()})),
         visible_share_(visible_share(rays, lights_, *sampler_, receivers_)) {}
 
+  // Replaces the choice by one that has learned from this many shadow rays of each pixel, in passes of their own.
+  void learn_visibility(const std::vector<std::uint32_t>& pixels, std::uint32_t passes) {
+    CullingParameters parameters;
+    parameters.radiance_floor = sampler_->error_bound() * 2 * std::numbers::pi_v<float> / settings_.exposure;
+    parameters.exposure = settings_.exposure, parameters.scene_diagonal = rays_.bounds().diagonal();
+    auto learned = std::make_unique<LearnedVisibilitySampler>(
+        lights_, settings_, parameters, parameters.scene_diagonal / kLearnedCells, kLearnedLights);
+    LearnedVisibilitySampler& learns = *learned;
+    sampler_ = std::move(learned);
+    for (std::uint32_t pass = kPasses; pass < kPasses + passes; ++pass) {
+      sampler_->begin_pass(pass);
+      for (const std::uint32_t pixel : pixels) {
+        const Sample found = sample(pixel, pass % kPlaces, pass);
+        if (found.chosen != kNoLight && !is_black(found.unoccluded)) {
+          learns.learn(found.receiver, found.chosen, !is_black(found.first));
+        }
+      }
+    }
+  }
+
   // Of each pixel: kPlaces sums over passes.
   std::vector<Channels> measure(const std::vector<std::uint32_t>& pixels) {
     std::vector<Channels> sums(pixels.size() * kPlaces);
@@ -144,6 +170,7 @@ class DirectLight {
     const f32::RandomWords choice = numbers.pair_of_words();
     const ChosenLight chosen = sampler_->choose(receiver, candidates, choice.first * 0x1p-32, memory);
     Sample sample;
+    sample.receiver = receiver, sample.chosen = chosen.light;
     if (chosen.light != kNoLight) {
       if (corrected_) sample.correction = colour_correction(point, chosen, visible_share_);
       for (Vec3* arrives : {&sample.first, &sample.second}) {
@@ -288,7 +315,7 @@ struct Variant {
   LightChoice lights;
   RangeNumbers ranges;
   Importance importance;
-  bool by_area = false, corrected = true;
+  bool by_area = false, corrected = true, learned = false;
 };
 constexpr Variant kVariants[] = {
     {"culling", LightChoice::culling, RangeNumbers::independent, Importance::reflected},
@@ -297,6 +324,8 @@ constexpr Variant kVariants[] = {
     {"culling, points by area", LightChoice::culling, RangeNumbers::independent, Importance::reflected, true},
     {"culling, colours as they come", LightChoice::culling, RangeNumbers::independent, Importance::reflected, false,
      false},
+    {"the same, visibility learned", LightChoice::culling, RangeNumbers::independent, Importance::reflected, false,
+     false, true},
     {"tree", LightChoice::tree, {}, {}},
     {"power", LightChoice::power, {}, {}},
 };
@@ -319,8 +348,9 @@ void print_scene(const std::string& name) {
   std::printf("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
   for (const Variant& variant : kVariants) {
     settings.lights = variant.lights, settings.range_samples = variant.ranges, settings.importance = variant.importance;
-    const Parts p = mean_parts(DirectLight(stage, *rays, settings, variant.by_area, variant.corrected).measure(pixels),
-                               pixels, direct);
+    DirectLight light(stage, *rays, settings, variant.by_area, variant.corrected);
+    if (variant.learned) light.learn_visibility(pixels, kLearningPasses);
+    const Parts p = mean_parts(light.measure(pixels), pixels, direct);
     std::printf("| %s | %.3g | %.3g | %.3g | %.3g | %.3g | %.3g | %.3g |\n", variant.name, p.selection, p.colour,
                 p.visibility, p.place, p.bsdf, p.pixel, p.sum());
     std::fflush(stdout);
