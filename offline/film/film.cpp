@@ -25,7 +25,8 @@ constexpr auto kSquares = Film::kSquares, kAlbedo = Film::kAlbedo, kNormal = Fil
 
 // A sum that is full stays full: min(a + b, full) is associative for a, b >= 0.
 std::int64_t add_up_to_full(std::int64_t a, std::int64_t b) {
-  return a == kFull || b == kFull || (b > 0 && a > kFull - b) ? kFull : a + b;
+  if (a == kFull || b == kFull || (b > 0 && a > kFull - b)) return kFull;
+  return b < 0 && a < -kFull - b ? -kFull : a + b;
 }
 
 // To nearest. The library's llrint is a call, because it may report errors.

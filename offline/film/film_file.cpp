@@ -82,10 +82,10 @@ void add_sums(const Film& film, Image& image) {
   });
 }
 
-// Whether adding further samples to such a pixel is safe: radiance and squares never negative, the others bounded.
+// Whether adding further samples to such a pixel is safe: squares never negative, albedo and normal bounded.
 bool plausible(const Film::Pixel& sums, std::uint64_t count) {
   const double bound = double(count) * Film::kLargestFeature * 0x1p28;
-  for (std::size_t i = 0; i < Film::kSums; ++i) {
+  for (std::size_t i = Film::kSquares; i < Film::kSums; ++i) {
     if (i < Film::kAlbedo ? sums[i] < 0 : std::abs(double(sums[i])) > bound) return false;
   }
   return true;

@@ -23,11 +23,13 @@ FilmFile sample_file(std::uint32_t width = 17, std::uint32_t height = 5) {
   for (Film::Pixel& sums : pixels) {
     for (std::size_t i = 0; i < Film::kSums; ++i) {
       const std::int64_t any = static_cast<std::int64_t>(random() >> (1 + random() % 62));
-      sums[i] = i < Film::kAlbedo ? any : any % (std::int64_t(1) << 40) * (random() % 2 ? 1 : -1);
+      sums[i] = i < Film::kSquares  ? any * (random() % 2 ? 1 : -1)
+                : i < Film::kAlbedo ? any
+                                    : any % (std::int64_t(1) << 40) * (random() % 2 ? 1 : -1);
     }
   }
-  pixels[0] = {0,
-               1,
+  pixels[0] = {-1,
+               -(std::int64_t(1) << 45),
                std::numeric_limits<std::int64_t>::max(),
                (std::int64_t(1) << 44) - 1,
                std::int64_t(1) << 44,
@@ -118,7 +120,7 @@ TEST(FilmFile, forged_sums_are_refused) {
   with([](Image& x) { x.channels.at("sum.03.low")[7] += 0.5f; });
   with([](Image& x) { x.channels.at("sum.03.middle")[7] = 0x1p22f; });
   with([](Image& x) { x.channels.at("sum.03.high")[7] = std::numeric_limits<float>::quiet_NaN(); });
-  with([](Image& x) { x.channels.at("sum.00.high")[7] = -1; });
+  with([](Image& x) { x.channels.at("sum.03.high")[7] = -1; });
   with([](Image& x) { x.channels.at("sum.09.high")[7] = 0x1p18f; });
   with([](Image& x) { x.channels.erase("sum.11.high"); });
   with([](Image& x) { x.channels["more"] = x.channels.at("R"); });
