@@ -201,7 +201,7 @@ std::string provenance_section(const Figure& figure) {
   for (const std::string& command : figure.commands) commands += escape_html(command) + "\n";
   return text +
          fmt::format(
-             "<details><summary>The {} commands</summary>\n<pre tabindex=\"0\">{}</pre>\n</details>\n</section>\n",
+             "<details><summary>Commands: {}</summary>\n<pre tabindex=\"0\">{}</pre>\n</details>\n</section>\n",
              figure.commands.size(), commands);
 }
 
