@@ -277,9 +277,9 @@ def measure(bench, recipe, quick):
             bench.do(folder, compare_job(folder, f"{name}.compare",
                                          (compared_name(recipe, combination, quick), reference), results[name].exposure()))
         if recipe.sequence:
-            sequence = recipe.sequence_options(quick)
-            measure_sequence(bench, folder, name, shot, options | sequence)
-            measure_sequence(bench, folder, sequence_reference(recipe), shot,
+            sequence, path = recipe.sequence_options(quick), recipe.sequence.get("shot", shot)
+            measure_sequence(bench, folder, name, path, options | sequence)
+            measure_sequence(bench, folder, sequence_reference(recipe), path,
                              recipe.options_of({}, quick) | sequence | recipe.sequence_reference(quick))
         if recipe.maps and matches(combination, recipe.maps.get("where", {})):
             bench.do(folder, render_job(folder, f"{name}.maps", shot, options, "lights_listed,lights_false"))

@@ -45,7 +45,7 @@ class Recipe:
     axes: dict = field(default_factory=dict)  # name -> list of Value, in the order of the file
     reference: dict = field(default_factory=dict)  # options; per, where, common: see README.md
     maps: dict = field(default_factory=dict)  # where: of which measurements the lights per pixel are drawn
-    sequence: dict = field(default_factory=dict)  # options, quick_options, reference: of frames along a camera's path
+    sequence: dict = field(default_factory=dict)  # shot, options, reference: of frames in a row, see README.md
     tables: list = field(default_factory=list)
     plots: list = field(default_factory=list)
     claims: list = field(default_factory=list)
