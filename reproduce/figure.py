@@ -176,20 +176,21 @@ def comparisons_of(view):
         for combination in view.where(entry.get("where", {})):
             measured = view.measured(combination)
             reference = reference_name(view.recipe, combination)
-            title = combination[entry["per"]].name if "per" in entry else entry.get("title", "")
+            title = f"{entry['per']} {combination[entry['per']].name}" if "per" in entry else entry.get("title", "")
             group = groups.setdefault((title, reference), {
                 "title": title, "exposure": measured.value("settings/exposure"),
                 "reference": {"name": "reference", "file": f"{reference}.exr"}, "pictures": []})
             rest = rest_of(combination, entry.get("where", {}), {entry.get("per", ""): ""})
             group["pictures"].append({"name": ", ".join(rest.values()) or "Luciole", "file": f"{compared_name(view.recipe, combination, view.quick)}.exr",
-                                      "time": time_of(measured)})
+                                      "time": time_of(view, measured)})
     return list(groups.values())
 
 
-def time_of(measured):
+def time_of(view, measured):
     figures = measured.figures()[0]
     if "frame_ms" in figures:
-        return f"{measured.value('frame_ms'):.4g} ms a frame"
+        size = f" at {figures['settings']['size']}" if view.recipe.common(view.quick) else ""  # not that of the picture
+        return f"{measured.value('frame_ms'):.4g} ms a frame{size}"
     return f"{measured.value('render_seconds'):.3g} s, {figures['samples_per_pixel']} samples"
 
 
