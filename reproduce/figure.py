@@ -197,7 +197,7 @@ def time_of(view, measured):
 def maps_of(view):
     if not view.recipe.maps:
         return []
-    return [{"title": ", ".join(value.name for value in combination.values()),
+    return [{"title": ", ".join(f"{axis} {value.name}" for axis, value in combination.items()),
              "file": f"{combination_name(combination)}.maps.exr"}
             for combination in view.where(view.recipe.maps.get("where", {}))]
 
