@@ -83,7 +83,8 @@ def table_of(view, table):
         return {"ours": own, "paper": theirs, "ratio": ratio, "reason": reasons[row, column]}
     return {
         "title": table["title"], "unit": table.get("unit", ""), "note": table.get("note", ""),
-        "row_title": table.get("row_title", ""), "columns": columns, "has_paper": any(n is not None for n in paper.values()),
+        "row_title": table.get("row_title", ""), "columns": columns,
+        "has_paper": any(number is not None for number in paper.values()),
         "rows": [{"name": row, "cells": [entry(row, column) for column in columns]} for row in rows],
     }
 
@@ -181,8 +182,9 @@ def comparisons_of(view):
                 "title": title, "exposure": measured.value("settings/exposure"),
                 "reference": {"name": "reference", "file": f"{reference}.exr"}, "pictures": []})
             rest = rest_of(combination, entry.get("where", {}), {entry.get("per", ""): ""})
-            group["pictures"].append({"name": ", ".join(rest.values()) or "Luciole", "file": f"{compared_name(view.recipe, combination, view.quick)}.exr",
-                                      "time": time_of(view, measured)})
+            file = f"{compared_name(view.recipe, combination, view.quick)}.exr"
+            name = ", ".join(rest.values()) or "Luciole"
+            group["pictures"].append({"name": name, "file": file, "time": time_of(view, measured)})
     return list(groups.values())
 
 
@@ -213,7 +215,8 @@ def commands_of(view):
     """As a user would type them; run 1 of each."""
     names = dict.fromkeys(combination_name(c) for c in view.where())
     if view.recipe.reference:
-        names |= dict.fromkeys(reference_name(view.recipe, c) for c in view.where(view.recipe.reference.get("where", {})))
+        compared = view.where(view.recipe.reference.get("where", {}))
+        names |= dict.fromkeys(reference_name(view.recipe, combination) for combination in compared)
     folder = next(iter(view.results.values())).folder
     return [folder.done(name)["command"] for name in names]
 

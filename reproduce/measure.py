@@ -41,9 +41,9 @@ def numbered(file, frames):
 
 
 def as_arguments(options):
-    """{"near_field": "disc", "jitter": True} -> --near-field disc --jitter"""
+    """{"near_field": "disc", "jitter": True} -> --jitter --near-field disc. Sorted, so that equal ones hash alike."""
     words = []
-    for name, value in options.items():
+    for name, value in sorted(options.items()):
         option = "--" + name.replace("_", "-")
         if value is True:
             words.append(option)
@@ -135,7 +135,8 @@ class Bench:
         if result.returncode == 130:
             raise KeyboardInterrupt
         if result.returncode != 0:
-            raise MeasureError(f"{shlex.join(command)} ended with exit code {result.returncode}: {result.stderr.strip()}")
+            complaint = f"ended with exit code {result.returncode}: {result.stderr.strip()}"
+            raise MeasureError(f"{shlex.join(command)} {complaint}")
         if said:
             said.write_text(result.stdout, encoding="utf-8")
 
@@ -274,8 +275,8 @@ def measure(bench, recipe, quick):
             if common:
                 bench.do(folder, render_job(folder, f"{name}.small", shot, options | common))
             bench.do(folder, render_job(folder, reference, *recipe.reference_of(combination, quick)))
-            bench.do(folder, compare_job(folder, f"{name}.compare",
-                                         (compared_name(recipe, combination, quick), reference), results[name].exposure()))
+            pair = (compared_name(recipe, combination, quick), reference)
+            bench.do(folder, compare_job(folder, f"{name}.compare", pair, results[name].exposure()))
         if recipe.sequence:
             sequence, path = recipe.sequence_options(quick), recipe.sequence.get("shot", shot)
             measure_sequence(bench, folder, name, path, options | sequence)

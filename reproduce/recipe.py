@@ -108,7 +108,8 @@ def matches(combination, where):
 def known_keys(entry, allowed, place):
     for key in entry:
         if key not in allowed:
-            raise RecipeError(f"{place}: '{key}' is not a key of a recipe here; these are: {', '.join(sorted(allowed))}")
+            keys = ", ".join(sorted(allowed))
+            raise RecipeError(f"{place}: '{key}' is not a key of a recipe here; these are: {keys}")
 
 
 def read_axis(entry, place):

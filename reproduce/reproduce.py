@@ -105,7 +105,7 @@ def main(words):
         print(f"reproduce: {error}", file=sys.stderr)
         return 2 if isinstance(error, RecipeError) else 1
     except KeyboardInterrupt:
-        print("reproduce: interrupted; what is measured is kept, and the same command goes on from there", file=sys.stderr)
+        print("reproduce: interrupted; what is measured is kept, the same command goes on from there", file=sys.stderr)
         return INTERRUPTED
     return 0
 

@@ -173,8 +173,10 @@ const tests = {
     await page.waitForSelector("html[data-ready=true]");
     assert.match(page.url(), /th17-fig0\/index\.html$/);
     await page.close();
-    unlinkSync(join(scratch, "site/th17-fig0/map-1.png"));
-    const { page: broken, faults } = await open_page(join(scratch, "site/th17-fig0"), kWide, "light");
+    const copy = join(scratch, "site/sabotaged");
+    cpSync(join(scratch, "site/th17-fig0"), copy, { recursive: true });
+    unlinkSync(join(copy, "map-1.png"));
+    const { page: broken, faults } = await open_page(copy, kWide, "light");
     assert.ok(faults.some((fault) => fault.includes("map-1.png")), `${faults}`);
     await broken.close();
   },
@@ -189,7 +191,7 @@ const tests = {
     await settled(page);
     assert.deepEqual(await computed(page, ".layer.on-right", "clipPath"), Array(4).fill("inset(0px 0px 0px 60%)"));
     assert.deepEqual(await visible_layers(page), Array(4).fill("reference+error"));
-    assert.deepEqual(faults.filter((fault) => !fault.includes("map-1.png")), []);
+    assert.deepEqual(faults, []);
     await page.close();
   },
 
