@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 #include "base/parallel.h"
@@ -82,6 +83,32 @@ TEST(LightCulling, changes_the_cost_but_never_the_picture) {
         }
       }
     }
+  }
+}
+
+// Sums and counts per pixel of one kind of lobe add up to those of both, and clamped ranges find their constant.
+TEST(Lobes, left_out_are_missing_from_predictions_and_clamped_ranges_too) {
+  const Stage scene = stage("recipe:cornell?glossy=0.1");
+  const auto frame_of = [&](Lobes lobes, Ranges ranges) {
+    Settings settings = small_settings();
+    settings.lobes = lobes, settings.ranges = ranges;
+    Result<Renderer> renderer = Renderer::create(scene.scene, scene.camera, scene.primaries, settings);
+    return *renderer->render(0, {"predicted_accepted"});
+  };
+  const auto predicted = [&](Lobes lobes) {
+    const Frame frame = frame_of(lobes, Ranges::stochastic);
+    const std::vector<float>& accepted = frame.layers.channels.at("predicted_accepted.V");
+    return std::accumulate(accepted.begin(), accepted.end(), 0.0);
+  };
+  const double all = predicted(Lobes::all), diffuse = predicted(Lobes::diffuse), glossy = predicted(Lobes::glossy);
+  EXPECT_GT(diffuse, 0), EXPECT_GT(glossy, 0);
+  const double rounding = 2.0 * small_settings().vpls * std::numeric_limits<float>::epsilon();  // of sums per pixel
+  EXPECT_NEAR((diffuse + glossy) / all, 1.0, rounding);
+  for (const Lobes lobes : {Lobes::diffuse, Lobes::glossy}) {
+    const Frame frame = frame_of(lobes, Ranges::clamped);
+    const PerPixel& accepted = frame.statistics.accepted;
+    EXPECT_GT(accepted.total(), 0);
+    EXPECT_EQ(lobes == Lobes::diffuse ? accepted.glossy : accepted.diffuse, 0);
   }
 }
 

@@ -48,7 +48,8 @@ class Trial {
     index_.resize(emitters_.size());
     std::iota(index_.begin(), index_.end(), 0u);
   }
-  const AlignedVector<Emitter>& emitters() const { return emitters_; }
+  const Emitter* data() const { return emitters_.empty() ? nullptr : emitters_.data(); }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(emitters_.size()); }
   void set_xi(float xi) {
     for (Emitter& emitter : emitters_) emitter.xi = xi;
   }
@@ -79,9 +80,8 @@ class Sample {
   // What stochastic ranges accept on average: the sum of p.
   double expected() const {
     return over_groups([&](const PixelGroup& group) {
-      const SubsetLights lights{diffuse_.emitters().data(), glossy_.emitters().data(),
-                                static_cast<std::uint32_t>(diffuse_.emitters().size()), many_.emitters().data(),
-                                static_cast<std::uint32_t>(many_.emitters().size())};
+      const SubsetLights lights{diffuse_.data(), glossy_.data(), std::max(diffuse_.size(), glossy_.size()),
+                                many_.data(), many_.size()};
       alignas(64) const float albedo[3][kGroupPixels] = {};
       GroupPrediction prediction;
       LUCIOLE_FOR_ISA(isa_, predict_group(group, albedo, lights, prediction));

@@ -57,10 +57,11 @@ void predict_group(const PixelGroup& group, const float (&diffuse_albedo)[3][kGr
   for (int lane = 0; lane < kGroupPixels; lane += kLanes) {
     const Pixels pixels = load_pixels(group, lane);
     const real3 albedo = load3(diffuse_albedo, lane);
+    const Contribution nothing{real3(0.0f, 0.0f, 0.0f), real(0.0f)};
     PredictionSums sums;
     for (std::uint32_t i = 0; i < lights.vpl_count; ++i) {
-      const Contribution d = contribution(pixels, albedo, lights.diffuse[i]);
-      const Contribution s = contribution(pixels, albedo, lights.glossy[i]);
+      const Contribution d = lights.diffuse ? contribution(pixels, albedo, lights.diffuse[i]) : nothing;
+      const Contribution s = lights.glossy ? contribution(pixels, albedo, lights.glossy[i]) : nothing;
       const real inverse_d = inverse_or_zero(d.p), inverse_s = inverse_or_zero(s.p);
       add(d, inverse_d, sums), add(s, inverse_s, sums);
       const real both = max(d.p + s.p - 1.0f, real(0.0f)) * inverse_d * inverse_s;

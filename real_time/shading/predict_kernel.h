@@ -8,7 +8,8 @@
 
 namespace luciole {
 
-// Lights of one subset, entry i of `diffuse` and of `glossy` being two lobes of one virtual point light.
+// Lights of one subset, entry i of `diffuse` and of `glossy` being two lobes of one virtual point light. Of lobes that
+// are left out (Lobes) there are none: null.
 struct SubsetLights {
   const DiffuseEmitter* diffuse;
   const GlossyEmitter* glossy;

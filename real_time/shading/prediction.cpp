@@ -53,9 +53,10 @@ void predict_pixels(const ShadingInputs& inputs, const PixelGroup& group, Predic
       albedo[c][lane] = inputs.geometry.diffuse_albedo[c][group.pixel[lane]];
   PixelMoments moments[kGroupPixels];
   for (std::uint32_t k = 0; k < subsets; ++k) {
-    const SubsetLights lights{subset_emitters(inputs.diffuse, k), subset_emitters(inputs.glossy, k),
-                              subset_count(inputs.diffuse, k), subset_emitters(inputs.many, k),
-                              subset_count(inputs.many, k)};
+    const std::uint32_t diffuse = subset_count(inputs.diffuse, k), glossy = subset_count(inputs.glossy, k);
+    const SubsetLights lights{diffuse > 0 ? subset_emitters(inputs.diffuse, k) : nullptr,
+                              glossy > 0 ? subset_emitters(inputs.glossy, k) : nullptr, std::max(diffuse, glossy),
+                              subset_emitters(inputs.many, k), subset_count(inputs.many, k)};
     GroupPrediction subset;
     LUCIOLE_FOR_ISA(inputs.settings.isa, predict_group(group, albedo, lights, subset));
     for (std::uint32_t lane = 0; lane < group.count; ++lane) add(subset, lane, moments[lane]);
