@@ -76,6 +76,7 @@ Status read_outputs(const RenderOptions& options, PathPlan& plan) {
   const Result<ToneCurve> curve = chosen_tone_curve(options);
   if (!curve) return curve.error();
   plan.tone_curve = *curve;
+  if (options.outputs.empty()) return Error{ErrorKind::usage, "--output is required"};
   Result<OutputFiles> outputs = OutputFiles::create({options.outputs.begin(), options.outputs.end()}, {});
   if (!outputs) return outputs.error();
   plan.outputs = std::move(*outputs);

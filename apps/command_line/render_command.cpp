@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include "apps/command_line/accumulator.h"
 #include "apps/command_line/commands.h"
@@ -14,6 +15,7 @@
 #include "apps/command_line/stage.h"
 #include "apps/command_line/statistics_file.h"
 #include "apps/command_line/version.h"
+#include "apps/command_line/video.h"
 #include "base/parallel.h"
 #include "image/output_file.h"
 #include "real_time/frame.h"
@@ -51,9 +53,19 @@ class Run {
     if (!renderer) return stopped_or(renderer.error());
     statistics_.bvh_ms = renderer->bvh_build_ms();
     statistics_.settings = renderer->settings();
+    if (plan_.video) {
+      Result<VideoWriter> video = VideoWriter::start(*plan_.video);
+      if (!video) return video.error();
+      video_.emplace(std::move(*video));
+    }
     for (std::uint64_t index = plan_.frames.first; index <= plan_.frames.last && !stop_requested(); ++index) {
       if (moves_) renderer->set_camera(camera_at(*plan_.shot.camera_path, double(index), plan_.shot.frames_per_second));
       if (Status status = render_one(*renderer, index); !status) return stopped_or(status.error());
+    }
+    // Interrupted, the video has the frames that are complete; without any there is none.
+    if (video_ && pictures_ > 0) {
+      progress_.step("finishing the video");
+      if (Status status = video_->finish(); !status) return status.error();
     }
     if (!options_.statistics.empty() && !statistics_.frames.empty()) {
       if (Status status = write_text(statistics_json(statistics_), options_.statistics); !status) {
@@ -118,6 +130,10 @@ class Run {
     ++pictures_;
     complete_frames_ += complete;
     progress_.step("writing");
+    if (video_) {
+      const std::vector<Vec3> shown = to_display(picture.colours(""), plan_.settings.exposure, plan_.tone_curve);
+      if (Status status = video_->add(shown); !status) return status;
+    }
     return plan_.outputs.write(picture, index, plan_.settings.exposure, plan_.tone_curve);
   }
 
@@ -142,6 +158,7 @@ class Run {
   Progress progress_;
   bool moves_;  // along the shot's path
   RunStatistics statistics_;
+  std::optional<VideoWriter> video_;
   std::uint64_t pictures_ = 0, complete_frames_ = 0;
 };
 

@@ -20,6 +20,7 @@ constexpr const char* kExamples = R"(Examples:
   luciole render sponza/sponza.gltf --scenes ~/scenes --camera -9,2,0/0,2.5,0/60 -o sponza.png
   luciole render gallery --accumulate 64 --jitter -o smooth.exr -o smooth.png
   luciole render gallery-walk --frames 0-179 -o frame-####.png --statistics frames.json
+  luciole render gallery-walk --frames 0-179 --size 640x360 --video walk.mp4
   luciole render gallery --culling none --ranges infinite --interleave 1 --filter none -o reference.exr
 
   luciole render lamps --method path --samples 256 -o lamps.exr --layers albedo,normal,variance
@@ -75,6 +76,7 @@ void declare_frame_options(CLI::App& command, RenderOptions& options) {
       ->group(kOfFrame);
   command.add_option("--frames", options.frames, "A-B: frames of these indices, numbered by #### in -o")
       ->group(kOfFrame);
+  command.add_option("--video", options.video, "FILE.mp4 of --frames, through the program ffmpeg")->group(kOfFrame);
 }
 
 void declare_path_options(CLI::App& command, RenderOptions& options) {
@@ -111,7 +113,6 @@ void declare_options(CLI::App& command, RenderOptions& options) {
       ->required();
   command.add_option("--method", options.method, "frame (real time) or path (path tracing)")->default_str("frame");
   command.add_option("-o,--output", options.outputs, "FILE.exr (linear, layers) or FILE.png; may be repeated")
-      ->required()
       ->allow_extra_args(false);
   command.add_option("--scenes", options.scenes, "folder of scenes (else $LUCIOLE_SCENES, else ./scenes)");
   command.add_option("--camera", options.camera, "x,y,z/x,y,z/degrees (eye, target, field of view), or name or index");

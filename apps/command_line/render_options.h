@@ -30,7 +30,7 @@ struct RenderOptions {
   int threads = 0;  // 0: all
   bool quiet = false, verbose = false;
   // --method frame
-  std::string frames;
+  std::string frames, video;
   std::uint32_t accumulate = 1;
   // --method path
   std::optional<std::uint64_t> samples;

@@ -73,7 +73,17 @@ Status read_outputs(const RenderOptions& options, RenderPlan& plan) {
   Result<OutputFiles> outputs = OutputFiles::create({options.outputs.begin(), options.outputs.end()}, plan.frames);
   if (!outputs) return outputs.error();
   plan.outputs = std::move(*outputs);
+  if (options.outputs.empty() && options.video.empty()) {
+    return Error{ErrorKind::usage, "--output or --video is required"};
+  }
   return options.statistics.empty() ? Status(Done{}) : check_writable(options.statistics);
+}
+
+Status read_video(const RenderOptions& options, RenderPlan& plan) {
+  if (options.video.empty()) return Done{};
+  if (!plan.frames.numbered) return Error{ErrorKind::usage, "--video needs --frames A-B"};
+  plan.video = VideoFormat{options.video, plan.settings.width, plan.settings.height, plan.shot.frames_per_second};
+  return check_video(*plan.video);
 }
 
 }  // namespace
@@ -96,7 +106,7 @@ Status check_memory(double bytes, const std::string& what) {
 Result<RenderPlan> make_plan(const RenderOptions& options) {
   RenderPlan plan;
   plan.folders = search_folders(options.scenes);
-  for (const auto read : {read_settings, read_outputs, read_layers}) {
+  for (const auto read : {read_settings, read_outputs, read_layers, read_video}) {
     if (Status status = read(options, plan); !status) return status.error();
   }
   return plan;

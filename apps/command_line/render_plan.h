@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/command_line/output_files.h"
 #include "apps/command_line/render_options.h"
+#include "apps/command_line/video.h"
 #include "base/result.h"
 #include "image/tone_curve.h"
 #include "real_time/settings.h"
@@ -19,6 +21,7 @@ struct RenderPlan {
   Settings settings;
   FrameRange frames;
   OutputFiles outputs;
+  std::optional<VideoFormat> video;
   ToneCurve tone_curve = ToneCurve::pbr_neutral;
   std::vector<std::string> layers;  // asked of the renderer
   bool variance = false;
