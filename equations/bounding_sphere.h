@@ -41,6 +41,31 @@ LUCIOLE_FN BoundingSphere sphere_at_light(real3 position, real reach) {
   return sphere;
 }
 
+// The other way round: a sphere is an ellipsoid with any axes.
+LUCIOLE_FN BoundingEllipsoid ellipsoid_of(BoundingSphere sphere) {
+  BoundingEllipsoid e;
+  e.centre = sphere.centre;
+  e.axis_u = real3(1.0f, 0.0f, 0.0f);
+  e.axis_w = real3(0.0f, 1.0f, 0.0f);
+  e.r_u = sphere.radius;
+  e.r_v = sphere.radius;
+  e.r_w = sphere.radius;
+  return e;
+}
+
+// A rare random number near 0 gives a range whose square a float cannot hold. Beyond this radius, far outside any
+// scene, a sphere round the light is as good.
+//   position  of the light  [m]
+LUCIOLE_FN BoundingEllipsoid bound_within_float(BoundingEllipsoid e, real3 position) {
+  const real largest = 1e8f;                                  // [m]
+  const mask fits = max(max(e.r_u, e.r_v), e.r_w) < largest;  // false for infinity and for what is no number
+  e.centre = select(fits, e.centre, position);
+  e.r_u = select(fits, e.r_u, largest);
+  e.r_v = select(fits, e.r_v, largest);
+  e.r_w = select(fits, e.r_w, largest);
+  return e;
+}
+
 // Sphere around an ellipsoid; around [TH17]'s spheroid it has radius r_u.   [TH17] Fig. 9 b
 LUCIOLE_FN BoundingSphere sphere_around(BoundingEllipsoid e) {
   BoundingSphere sphere;

@@ -18,6 +18,7 @@
 #include "real_time/shading/shading_pass.h"
 #include "real_time/sky_light/sky_light.h"
 #include "real_time/virtual_point_lights/place_lights.h"
+#include "real_time/vulkan_recovery.h"
 
 namespace luciole {
 namespace {
@@ -66,13 +67,24 @@ void count_lights(const ShadingOutputs& shaded, FrameStatistics& statistics) {
   statistics.list_length_max = *std::max_element(lengths.begin(), lengths.end());
 }
 
+double listed_pairs(const ShadingOutputs& shaded) {
+  return static_cast<double>(shaded.diffuse.listed + shaded.glossy.listed + shaded.many.listed);
+}
+
 // The wall time of culling and shading, split by what the threads spent on each.
 void time_shading(const ShadingOutputs& shaded, double wall_ms, FrameStatistics& statistics) {
   const double busy = std::max(shaded.culling_seconds + shaded.shading_seconds, 1e-9);
   statistics.passes_ms.emplace_back("culling", wall_ms * shaded.culling_seconds / busy);
   statistics.passes_ms.emplace_back("shading", wall_ms * shaded.shading_seconds / busy);
-  const double pairs = static_cast<double>(shaded.diffuse.listed + shaded.glossy.listed + shaded.many.listed);
-  statistics.evaluations_per_second = pairs / std::max(wall_ms * 1e-3, 1e-9);
+  statistics.evaluations_per_second = listed_pairs(shaded) / std::max(wall_ms * 1e-3, 1e-9);
+}
+
+ShadingOutputs shade_on_cpu(const ShadingInputs& inputs, FrameStatistics& statistics) {
+  const auto start = std::chrono::steady_clock::now();
+  ShadingOutputs shaded = shade(inputs);
+  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+  time_shading(shaded, wall.count(), statistics);
+  return shaded;
 }
 
 bool is_same_view(const Camera& a, const Camera& b) {
@@ -85,6 +97,7 @@ bool is_same_view(const Camera& a, const Camera& b) {
 
 // What frames of an unmoved camera and unmoved lights have in common.
 struct View {
+  std::uint64_t number = 0;  // of its rendering, from 1
   GeometryBuffer geometry;
   VirtualPointLights vpls;
   Plane3 direct;
@@ -103,14 +116,17 @@ struct Renderer::State {
   const View* view(std::uint64_t frame_index);  // none after Ctrl-C
   bool render_view(std::uint64_t frame_index, View& made);
   float constant_xi(const View& seen, const ManyLights& many_lights);
-  ShadingOutputs shade_lights(const View& seen, std::uint64_t frame_index, const std::vector<std::string>& layers,
-                              Frame& frame, Prediction& prediction);
+  Result<ShadingOutputs> shade_lights(const View& seen, std::uint64_t frame_index,
+                                      const std::vector<std::string>& layers, Frame& frame, Prediction& prediction);
+  Result<std::optional<ShadingOutputs>> shade_on_device(const VulkanFrame& wanted, FrameStatistics& statistics);
 
   RayScene rays;
   Camera camera;
   PrimaryLights primaries;
   Settings settings;
+  std::optional<VulkanRecovery> vulkan;  // none: the CPU engine
   double bvh_build_ms = 0;
+  std::uint64_t views = 0;  // rendered so far
   std::optional<View> cached;
   std::optional<ReflectiveShadowMaps> maps;  // kept, as the order of their texels takes a while to find
   std::optional<float> clamped;              // xi of Ranges::clamped for this view
@@ -149,6 +165,7 @@ bool Renderer::State::render_view(std::uint64_t frame_index, View& made) {
   made.direct = direct_light(rays, made.geometry, lights, settings.isa);
   timer.end("direct_light");
   made.passes_ms = times.passes_ms;
+  made.number = ++views;
   return !stop_requested();
 }
 
@@ -186,50 +203,91 @@ float Renderer::State::constant_xi(const View& seen, const ManyLights& many_ligh
   }
 }
 
-ShadingOutputs Renderer::State::shade_lights(const View& seen, std::uint64_t frame_index,
-                                             const std::vector<std::string>& layers, Frame& frame,
-                                             Prediction& prediction) {
+// None where the device is gone for good: from then on this is the CPU engine.
+Result<std::optional<ShadingOutputs>> Renderer::State::shade_on_device(const VulkanFrame& wanted,
+                                                                       FrameStatistics& statistics) {
+  Result<std::optional<VulkanShaded>> shaded = vulkan->shade(wanted, statistics.notes);
+  if (!shaded) return shaded.error();
+  if (!*shaded) {
+    vulkan.reset();
+    settings.engine = Engine::cpu;
+    settings.device.clear();
+    return std::optional<ShadingOutputs>();
+  }
+  double shading_ms = 0;
+  for (const auto& [pass, ms] : (*shaded)->passes_ms) {
+    statistics.passes_ms.emplace_back(pass, ms);
+    if (pass == "culling_and_shading") shading_ms = ms;
+  }
+  statistics.evaluations_per_second = listed_pairs((*shaded)->shaded) / std::max(shading_ms * 1e-3, 1e-9);
+  return std::optional<ShadingOutputs>(std::move((*shaded)->shaded));
+}
+
+Result<ShadingOutputs> Renderer::State::shade_lights(const View& seen, std::uint64_t frame_index,
+                                                     const std::vector<std::string>& layers, Frame& frame,
+                                                     Prediction& prediction) {
   frame.statistics.passes_ms = seen.passes_ms;
   PassTimer timer(frame.statistics);
   const ManyLights many_lights = make_many_lights(rays.scene(), primaries, settings, frame_index);
   timer.end("many_lights");
-  const FrameKey key{settings.seed, frame_index};
-  const Reached reached(seen, many_lights, range_parameters(settings, camera, key, constant_xi(seen, many_lights)),
-                        settings);
-  timer.end("light_range");
   frame.statistics.virtual_point_lights = seen.vpls.size();
   frame.statistics.many_lights = many_lights.size();
-  const ShadingInputs inputs{seen.geometry,
-                             reached.diffuse,
-                             reached.glossy,
-                             reached.many,
-                             settings,
-                             subset_shift(key, settings.interleave),
-                             settings.direct_shadows ? &rays : nullptr,
-                             wants(layers, "lights_listed") || wants(layers, "lights_false"),
-                             wants(layers, "indirect_from_diffuse") || wants(layers, "indirect_from_glossy")};
-  const auto start = std::chrono::steady_clock::now();
-  ShadingOutputs shaded = shade(inputs);
-  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
-  time_shading(shaded, wall.count(), frame.statistics);
-  count_lights(shaded, frame.statistics);
-  if (wants_prediction(layers)) prediction = predict(inputs);
-  return shaded;
+  const FrameKey key{settings.seed, frame_index};
+  const RangeParameters range = range_parameters(settings, camera, key, constant_xi(seen, many_lights));
+  const std::uint32_t shift = subset_shift(key, settings.interleave);
+  const bool count = wants(layers, "lights_listed") || wants(layers, "lights_false");
+  const bool lobes_apart = wants(layers, "indirect_from_diffuse") || wants(layers, "indirect_from_glossy");
+  std::optional<ShadingOutputs> shaded;
+  if (vulkan) {
+    auto on_device = shade_on_device(
+        {seen.number, seen.geometry, seen.vpls, many_lights, range, shift, count, lobes_apart}, frame.statistics);
+    if (!on_device) return on_device.error();
+    shaded = std::move(*on_device);
+  }
+  frame.statistics.engine = to_string(settings.engine);
+  if (!shaded || wants_prediction(layers)) {
+    const Reached reached(seen, many_lights, range, settings);
+    if (!shaded) timer.end("light_range");
+    const ShadingInputs inputs{seen.geometry,
+                               reached.diffuse,
+                               reached.glossy,
+                               reached.many,
+                               settings,
+                               shift,
+                               settings.direct_shadows ? &rays : nullptr,
+                               count,
+                               lobes_apart};
+    if (!shaded) shaded = shade_on_cpu(inputs, frame.statistics);
+    if (wants_prediction(layers)) prediction = predict(inputs);
+  }
+  count_lights(*shaded, frame.statistics);
+  return std::move(*shaded);
 }
 
 const std::vector<std::string>& Renderer::layer_names() { return composition_layers(); }
 
+Status Renderer::check(const Settings& settings) {
+  if (Result<Isa> isa = choose_isa(settings.isa); !isa) return isa.error();
+  if (settings.engine == Engine::vulkan) return VulkanEngine::can_do(settings);
+  if (settings.engine == Engine::cpu && (!settings.device.empty() || settings.vulkan_validation)) {
+    return Error{ErrorKind::usage, "--device and --vulkan-validation belong to --engine vulkan or auto"};
+  }
+  return Done{};
+}
+
 Result<Renderer> Renderer::create(std::shared_ptr<const Scene> scene, const Camera& camera, PrimaryLights primaries,
                                   const Settings& wanted) {
+  if (Status able = check(wanted); !able) return able.error();
   Settings settings = wanted;
-  const Result<Isa> isa = choose_isa(settings.isa);
-  if (!isa) return isa.error();
-  settings.isa = *isa;
+  settings.isa = *choose_isa(settings.isa);
   if (settings.ranges == Ranges::infinite) settings.culling = Culling::none;  // nothing can be culled
+  Result<std::optional<VulkanRecovery>> vulkan = VulkanRecovery::chosen_by(settings);
+  if (!vulkan) return vulkan.error();
   const auto start = std::chrono::steady_clock::now();
   Result<RayScene> rays = RayScene::create(std::move(scene), {.isa = to_string(settings.isa)});
   if (!rays) return rays.error();
   auto state = std::make_unique<State>(std::move(*rays), camera, std::move(primaries), settings);
+  state->vulkan = std::move(*vulkan);
   state->bvh_build_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return Renderer(std::move(state));
 }
@@ -242,8 +300,10 @@ Result<Frame> Renderer::render(std::uint64_t frame_index, const std::vector<std:
   if (view == nullptr) return stopped;
   const View& seen = *view;
   Prediction prediction;
-  const ShadingOutputs shaded = state_->shade_lights(seen, frame_index, layers, frame, prediction);
+  const Result<ShadingOutputs> lit = state_->shade_lights(seen, frame_index, layers, frame, prediction);
   if (stop_requested()) return stopped;
+  if (!lit) return lit.error();
+  const ShadingOutputs& shaded = *lit;
   PassTimer timer(frame.statistics);
   const bool filtered = state_->settings.filter == Filter::bilateral;
   const Radiance& noisy = shaded.radiance.indirect;

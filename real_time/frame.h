@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One real-time frame on the CPU: the passes in order. This is the door of real_time for programs.
+// One real-time frame: the passes in order. This is the door of real_time for programs.
 #pragma once
 #include <map>
 #include <memory>
@@ -23,12 +23,15 @@ struct PerPixel {
 };
 
 struct FrameStatistics {
+  std::string engine;                                     // that computed ranges, culling and shading: cpu or vulkan
+  std::vector<std::string> notes;                         // what the user should know of this frame, a sentence each
   std::vector<std::pair<std::string, double>> passes_ms;  // in the order of the frame
   double frame_ms = 0;                                    // without loading and BVH building
   std::uint64_t virtual_point_lights = 0, many_lights = 0;
   // listed: in the list of the pixel's depth half or cluster; splatting: lights whose splat covers the pixel
   PerPixel listed, accepted, false_positives;
-  PerPixel evaluated;  // through the shading kernel, 16 pixels at once: tiled culling tests each 16 pixels once more
+  // Through the shading kernel: the CPU shades 16 pixels at once, and tiled culling tests each 16 once more.
+  PerPixel evaluated;
   // Per list: (sub-region tile, depth half), cluster, or 4x4 pixels.
   double list_length_mean = 0, list_length_p99 = 0, list_length_max = 0;
 
@@ -55,13 +58,16 @@ class Renderer {
   // predicted_variance, predicted_accepted (of all lights that go through culling).
   static const std::vector<std::string>& layer_names();
 
+  // Whether such frames can be rendered; else one sentence. `create` asks it, too.
+  static Status check(const Settings& settings);
+
   static Result<Renderer> create(std::shared_ptr<const Scene> scene, const Camera& camera, PrimaryLights primaries,
                                  const Settings& settings);
   Result<Frame> render(std::uint64_t frame_index, const std::vector<std::string>& layers = {});
 
   // Of the frames from now on. What was kept of the last view is made anew where this one is another.
   void set_camera(const Camera& camera);
-  const Settings& settings() const;
+  const Settings& settings() const;  // instruction set, engine and device as chosen
   double bvh_build_ms() const;
 
   Renderer(Renderer&&) noexcept;

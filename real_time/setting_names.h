@@ -33,6 +33,9 @@ constexpr NameTable<Lobes, 3> names(Lobes) {
 constexpr NameTable<NearField, 2> names(NearField) {
   return {{{NearField::disc, "disc"}, {NearField::point, "point"}}};
 }
+constexpr NameTable<Engine, 3> names(Engine) {
+  return {{{Engine::cpu, "cpu"}, {Engine::vulkan, "vulkan"}, {Engine::automatic, "auto"}}};
+}
 constexpr NameTable<Filter, 2> names(Filter) { return {{{Filter::bilateral, "bilateral"}, {Filter::none, "none"}}}; }
 
 }  // namespace luciole

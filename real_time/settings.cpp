@@ -12,5 +12,6 @@ std::string to_string(Ranges value) { return name_of(value); }
 std::string to_string(Lobes value) { return name_of(value); }
 std::string to_string(NearField value) { return name_of(value); }
 std::string to_string(Filter value) { return name_of(value); }
+std::string to_string(Engine value) { return name_of(value); }
 
 }  // namespace luciole

@@ -42,6 +42,11 @@ enum class NearField : std::uint8_t {
   point  // 1/l^2
 };
 enum class Filter : std::uint8_t { bilateral, none };
+enum class Engine : std::uint8_t {
+  cpu,       // needs no driver; the same picture everywhere
+  vulkan,    // ranges, culling and shading on a Vulkan device
+  automatic  // Vulkan where there is a device in hardware that can do the settings, else the CPU
+};
 
 struct Settings {
   std::uint32_t width = 1280, height = 720;  // [pixels]
@@ -62,6 +67,11 @@ struct Settings {
   std::uint64_t seed = 1;          // moves ranges and interleaving only
   std::uint64_t vpl_seed = 0;      // 0: VPLs at texel centres; else jittered within the texel
   Isa isa = Isa::automatic;
+  Engine engine = Engine::cpu;
+  std::string device;              // of the Vulkan engine: index or part of the name; empty: the best there is
+  bool vulkan_validation = false;  // whatever the validation layers say fails the run
+  // For tests of a device's loss, without a name: gpu::DeviceRequest has it.
+  std::uint32_t lost_from_submission = 0;
 };
 
 // Names as on the command line ("sphere-at-light", "clamped-bound", ...).
@@ -72,5 +82,6 @@ std::string to_string(Ranges);
 std::string to_string(Lobes);
 std::string to_string(NearField);
 std::string to_string(Filter);
+std::string to_string(Engine);
 
 }  // namespace luciole

@@ -18,6 +18,7 @@ TEST(Settings, survive_the_way_through_text) {
   settings.delta = 0.0012345678f;
   settings.stratified_ranges = true;
   settings.jitter = true;
+  settings.engine = Engine::vulkan;
   settings.seed = 18446744073709551615u;
   const Result<Settings> read = settings_from(settings_as_text(settings), {});
   ASSERT_TRUE(read.has_value()) << read.error().message;
@@ -47,11 +48,12 @@ TEST(Settings, the_tile_test_follows_the_bounds_until_it_is_named) {
 }
 
 TEST(Settings, bad_values_are_refused_and_change_nothing) {
-  const SettingText bad[] = {{"size", "0x10"},       {"size", "64"},        {"size", "16385x1"},    {"size", "-4x4"},
-                             {"vpls", "0"},          {"vpls", "1e3"},       {"vpls", "4294967296"}, {"bounds", "cube"},
-                             {"interleave", "3"},    {"delta", "0"},        {"delta", "nan"},       {"delta", "1,5"},
-                             {"error_bound", "inf"}, {"exposure", "-1"},    {"jitter", "yes"},      {"seed", "-1"},
-                             {"isa", "sse9"},        {"range_samples", ""}, {"warp", "9"}};
+  const SettingText bad[] = {{"size", "0x10"},       {"size", "64"},     {"size", "16385x1"},    {"size", "-4x4"},
+                             {"vpls", "0"},          {"vpls", "1e3"},    {"vpls", "4294967296"}, {"bounds", "cube"},
+                             {"interleave", "3"},    {"delta", "0"},     {"delta", "nan"},       {"delta", "1,5"},
+                             {"error_bound", "inf"}, {"exposure", "-1"}, {"jitter", "yes"},      {"seed", "-1"},
+                             {"isa", "sse9"},        {"engine", "gpu"},  {"device", ""},         {"range_samples", ""},
+                             {"warp", "9"}};
   for (const auto& [name, text] : bad) {
     Settings settings;
     const Status status = set_setting(settings, name, text);

@@ -33,6 +33,23 @@ Entry range_samples_entry() {
       [](const Settings& settings) { return std::string(settings.stratified_ranges ? "stratified" : "independent"); }};
 }
 
+// Which device was taken stands beside the settings, with its full name.
+Entry device_entry() {
+  const auto set = [](Settings& settings, std::string_view text) {
+    settings.device = text;
+    return !text.empty();
+  };
+  return {"device", "Vulkan device: its number or a part of its name (luciole devices)", "a number or a name", set, {}};
+}
+
+// No part of the picture either.
+Entry validation_entry() {
+  Entry entry = switch_entry("vulkan_validation", "whatever Vulkan's validation layers say fails the run; slow",
+                             &Settings::vulkan_validation);
+  entry.text = nullptr;
+  return entry;
+}
+
 const SettingTable<Settings>& table() {
   static const auto any_seed = [](std::uint64_t) { return true; };
   static const SettingTable<Settings> entries({
@@ -63,6 +80,10 @@ const SettingTable<Settings>& table() {
       whole_entry<Settings, std::uint64_t>("vpl_seed", "seed of VPL positions; 0: texel centres",
                                            "a whole number from 0", &Settings::vpl_seed, any_seed),
       choice_entry("isa", "instruction set: auto|avx512|avx2|baseline", &Settings::isa),
+      choice_entry("engine", "what computes ranges, culling and shading: cpu|vulkan|auto (a GPU if there is one)",
+                   &Settings::engine),
+      device_entry(),
+      validation_entry(),
   });
   return entries;
 }

@@ -51,8 +51,8 @@ int run(int argument_count, char** arguments) {
     return explain({ErrorKind::usage, std::string(misuse.what()) + " (see luciole --help)"});
   }
   if (!chosen) {
-    return explain(
-        {ErrorKind::usage, "a command is needed: render, info, make, merge, compare, report or devices (see luciole --help)"});
+    return explain({ErrorKind::usage,
+                    "a command is needed: render, info, make, merge, compare, report or devices (see luciole --help)"});
   }
   const Result<int> outcome = chosen();
   if (!outcome) return explain(outcome.error());

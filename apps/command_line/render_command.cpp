@@ -32,12 +32,14 @@ double ms_since(Clock::time_point start) {
 }
 
 // Equal pictures are equal files: no times, dates or thread counts here.
-void add_metadata(Image& image, const RenderPlan& plan, const RenderOptions& options) {
+void add_metadata(Image& image, const RenderPlan& plan, const RenderOptions& options, const Settings& chosen) {
   image.metadata["luciole.version"] = kVersion;
   image.metadata["luciole.shot"] = options.shot;
   image.metadata["luciole.accumulated_frames"] = std::to_string(options.accumulate);
   for (const auto& [name, text] : settings_as_text(plan.settings)) image.metadata["luciole." + name] = text;
-  image.metadata["luciole.isa"] = to_string(*choose_isa(plan.settings.isa));
+  image.metadata["luciole.isa"] = to_string(chosen.isa);
+  image.metadata["luciole.engine"] = to_string(chosen.engine);
+  if (!chosen.device.empty()) image.metadata["luciole.device"] = chosen.device;
 }
 
 class Run {
@@ -52,7 +54,6 @@ class Run {
     Result<Renderer> renderer = prepare();
     if (!renderer) return stopped_or(renderer.error());
     statistics_.bvh_ms = renderer->bvh_build_ms();
-    statistics_.settings = renderer->settings();
     if (plan_.video) {
       Result<VideoWriter> video = VideoWriter::start(*plan_.video);
       if (!video) return video.error();
@@ -67,6 +68,7 @@ class Run {
       progress_.step("finishing the video");
       if (Status status = video_->finish(); !status) return status.error();
     }
+    statistics_.settings = renderer->settings();  // also after a device was lost
     if (!options_.statistics.empty() && !statistics_.frames.empty()) {
       if (Status status = write_text(statistics_json(statistics_), options_.statistics); !status) {
         return status.error();
@@ -125,7 +127,7 @@ class Run {
       picture = sum.mean();
       if (plan_.variance) sum.add_variance_layer(picture);
     }
-    add_metadata(picture, plan_, options_);
+    add_metadata(picture, plan_, options_, renderer.settings());
     picture.metadata["luciole.accumulated_frames"] = std::to_string(complete);
     ++pictures_;
     complete_frames_ += complete;
@@ -138,6 +140,10 @@ class Run {
   }
 
   void tell(const FrameStatistics& frame) {
+    for (const std::string& sentence : frame.notes) {
+      progress_.note(sentence);
+      statistics_.notes.push_back(sentence);
+    }
     for (const auto& [pass, ms] : frame.passes_ms) progress_.detail(fmt::format("{:>9.2f} ms {}", ms, pass));
     progress_.detail(
         fmt::format("{:>9.2f} ms frame, {} lights", frame.frame_ms, frame.virtual_point_lights + frame.many_lights));

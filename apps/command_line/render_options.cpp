@@ -49,7 +49,7 @@ std::string help_of(const std::string& name) {
 void declare_setting(CLI::App& command, RenderOptions& options, const std::string& name) {
   const bool frame = is_frame_setting(name), path = is_path_setting(name);
   const char* group = frame && path ? kOfBoth : frame ? kOfFrame : kOfPath;
-  if (name == "jitter" || name == "direct_shadows") {
+  if (name == "jitter" || name == "direct_shadows" || name == "vulkan_validation") {
     const auto set = [&options, name](std::int64_t) { options.settings.emplace_back(name, "true"); };
     command.add_flag_function(option_name(name), set, help_of(name))->group(group);
     return;

@@ -57,7 +57,7 @@ Status read_settings(const RenderOptions& options, RenderPlan& plan) {
   Result<Settings> settings = settings_from(listed->frame, options.settings);
   if (!settings) return settings.error();
   plan.settings = *settings;
-  if (Result<Isa> isa = choose_isa(plan.settings.isa); !isa) return isa.error();
+  if (Status able = Renderer::check(plan.settings); !able) return able;
   return check_frame_memory(plan.settings, options);
 }
 

@@ -24,6 +24,7 @@ Json per_pixel(const PerPixel& count) {
 
 Json frame_figures(const FrameStatistics& frame) {
   Json figures;
+  figures["engine"] = frame.engine;
   for (const auto& [pass, ms] : frame.passes_ms) figures["passes_ms"][pass] = ms;
   figures["frame_ms"] = frame.frame_ms;
   figures["lights"] = frame.virtual_point_lights + frame.many_lights;
@@ -96,6 +97,7 @@ std::string statistics_json(const RunStatistics& run) {
   object["shot"] = run.shot;
   object["primary_lights"] = run.primary_lights;
   for (const auto& [name, text] : settings_as_text(run.settings)) object["settings"][name] = typed_json(text);
+  if (!run.settings.device.empty()) object["device"] = run.settings.device;
   object["seed"] = run.settings.seed;
   object.update(machine_json(run.settings.isa));
   object["notes"] = run.notes;

@@ -45,13 +45,6 @@ LUCIOLE_FN PaperTestEllipsoid load_paper_ellipsoid(const BoundBlock& b, int lane
   return t;
 }
 
-LUCIOLE_FN Tile tile_of(const TileFrustum& f) {
-  Tile tile;
-  tile.x_low = f.x_low, tile.x_high = f.x_high, tile.y_low = f.y_low, tile.y_high = f.y_high;
-  tile.near_low = f.near_low, tile.near_high = f.near_high, tile.far_low = f.far_low, tile.far_high = f.far_high;
-  return tile;
-}
-
 template <TileTest test>
 void cull(const BoundBlock* blocks, std::uint32_t block_count, const TileFrustum& frustum, TouchingLights& near_half,
           TouchingLights& far_half) {

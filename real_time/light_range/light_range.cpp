@@ -7,6 +7,7 @@
 #include "base/isa.h"
 #include "base/parallel.h"
 #include "equations/cpp/float.h"
+#include "real_time/light_range/subset_layout.h"
 
 namespace luciole {
 namespace {
@@ -23,40 +24,25 @@ void point_to(const float* (&to)[3], const Plane3& from) {
   for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis].data();
 }
 
-// Lights by subset, in their order within each. The subset is that of the key, never of the place in a compacted list:
-// a light that is lost elsewhere must not move all others to other pixels.
-std::vector<std::vector<std::uint32_t>> lights_by_subset(const AlignedVector<std::uint32_t>& key,
-                                                         std::uint32_t subsets) {
-  std::vector<std::vector<std::uint32_t>> lists(subsets);
-  for (std::vector<std::uint32_t>& list : lists) list.reserve(key.size() / subsets + 1);
-  for (std::uint32_t i = 0; i < key.size(); ++i) lists[key[i] % subsets].push_back(i);
-  return lists;
-}
-
 // Lays out the subsets, then lets fill(piece, emitters, bounds) write 16 entries at a time, on all threads.
 template <class Emitter, class Fill>
 ReachingLights<Emitter> by_subset(const AlignedVector<std::uint32_t>& key, std::uint32_t interleave, const Fill& fill) {
-  const std::uint32_t subsets = interleave * interleave;
-  const std::vector<std::vector<std::uint32_t>> lists = lights_by_subset(key, subsets);
+  const SubsetLayout layout = subset_layout(key, interleave);
   ReachingLights<Emitter> out;
   std::vector<SubsetPiece> pieces;
-  std::vector<std::uint32_t> entry_of_piece;
-  std::uint32_t entries = 0;
-  for (std::uint32_t s = 0; s < subsets; ++s) {
-    const auto count = static_cast<std::uint32_t>(lists[s].size());
-    out.begin.push_back(entries);
-    out.count.push_back(count);
-    for (std::uint32_t offset = 0; offset < count; offset += 16) {
-      pieces.push_back({lists[s].data() + offset, std::min(16u, count - offset), s, subsets});
-      entry_of_piece.push_back(entries + offset);
+  for (std::uint32_t s = 0; s < layout.begin.size(); ++s) {
+    for (std::uint32_t offset = 0; offset < layout.count[s]; offset += 16) {
+      pieces.push_back({layout.light.data() + layout.begin[s] + offset, std::min(16u, layout.count[s] - offset), s,
+                        interleave * interleave});
     }
-    entries += (count + 15) / 16 * 16;
   }
-  out.emitters.resize(entries);
-  out.bounds.resize(entries / 16);
+  out.begin = layout.begin, out.count = layout.count;
+  out.emitters.resize(layout.light.size());
+  out.bounds.resize(layout.light.size() / 16);
   parallel_for(pieces.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      fill(pieces[i], &out.emitters[entry_of_piece[i]], out.bounds[entry_of_piece[i] / 16]);
+      const std::ptrdiff_t entry = pieces[i].lights - layout.light.data();
+      fill(pieces[i], out.emitters.data() + entry, out.bounds.data()[entry / 16]);
     }
   });
   return out;

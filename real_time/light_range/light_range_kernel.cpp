@@ -52,15 +52,6 @@ LUCIOLE_FN ViewFrame view_frame(const RangeParameters& p) {
   return view;
 }
 
-LUCIOLE_FN BoundingEllipsoid ellipsoid_of(BoundingSphere sphere) {
-  BoundingEllipsoid e;
-  e.centre = sphere.centre;
-  e.axis_u = real3(1.0f, 0.0f, 0.0f);
-  e.axis_w = real3(0.0f, 1.0f, 0.0f);
-  e.r_u = e.r_v = e.r_w = sphere.radius;
-  return e;
-}
-
 LUCIOLE_FN void store_row(BoundBlock& block, int row, int lane, real value) { store(block.row[row] + lane, value); }
 LUCIOLE_FN void store_rows(BoundBlock& block, int row, int lane, real3 value) {
   store_row(block, row, lane, value.x), store_row(block, row + 1, lane, value.y),
@@ -85,23 +76,9 @@ LUCIOLE_FN void store_test_rows(const TileTestEllipsoid& t, BoundBlock& block, i
   store_row(block, BoundBlock::kSyz, lane, t.syz), store_row(block, BoundBlock::kSzz, lane, t.szz);
 }
 
-// A rare random number near 0 gives a range whose square a float cannot hold. Beyond this radius, far outside any
-// scene, a sphere round the light is as good.
-constexpr float kLargestRadius = 1e8f;  // [m]
-
-LUCIOLE_FN BoundingEllipsoid within_float(BoundingEllipsoid e, real3 position) {
-  const mask fits = max(max(e.r_u, e.r_v), e.r_w) < kLargestRadius;  // false for infinity and for what is no number
-  const real largest = kLargestRadius;
-  e.centre = select(fits, e.centre, position);
-  e.r_u = select(fits, e.r_u, largest);
-  e.r_v = select(fits, e.r_v, largest);
-  e.r_w = select(fits, e.r_w, largest);
-  return e;
-}
-
 LUCIOLE_FN void store_bound(const RangeParameters& p, const ViewFrame& view, BoundingEllipsoid unlimited,
                             real3 position, real3 normal, mask reaches, BoundBlock& block, int lane) {
-  const BoundingEllipsoid e = within_float(unlimited, position);
+  const BoundingEllipsoid e = bound_within_float(unlimited, position);
   const real3 centre = view_from_world(view, e.centre);
   const real radius = max(max(e.r_u, e.r_v), e.r_w) * 1.0001f + 4e-6f * length(centre);
   store_rows(block, BoundBlock::kCentreX, lane, centre);

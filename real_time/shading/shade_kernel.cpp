@@ -30,7 +30,7 @@ LUCIOLE_FN Tested test(const Pixels& pixels, const Emitter& light) {
   t.connection = connect(pixels, light.position);
   t.emitted = emit(light, -t.connection.to_light);
   t.l_sq = t.connection.distance_sq + light.disc;
-  t.accepted = t.emitted.peak > t.l_sq * light.xi;
+  t.accepted = emission_is_accepted(t.emitted, t.l_sq, light.xi);
   return t;
 }
 
@@ -43,8 +43,8 @@ LUCIOLE_FN void add_light(const Pixels& pixels, const Tested& t, std::uint32_t v
   sums.accepted += select(t.accepted, real(1.0f), real(0.0f));
   const mask lit = t.accepted && mask_from_bits(visible) && dot(pixels.geometric_normal, t.connection.to_light) > 0.0f;
   if (!any(lit)) return;
-  const real fall_off = inverse(kDivideByP ? min(t.l_sq, e.peak) : t.l_sq);
-  const real3 arriving = e.colour * select(lit, e.factor * fall_off, real(0.0f));
+  const real weight = kDivideByP ? fall_off_over_probability(e, t.l_sq) : inverse(t.l_sq);
+  const real3 arriving = e.colour * select(lit, e.factor * weight, real(0.0f));
   const Reflection r = reflection(pixels.brdf, t.connection.to_light);
   sums.diffuse += arriving * r.diffuse;
   sums.specular += arriving * r.specular;
@@ -88,7 +88,7 @@ void accept(const PixelGroup& group, const LightList<Emitter>& list, std::uint16
       const Emitter& light = list.emitters[list.index[i]];
       const Connection c = connect(pixels, light.position);
       const Emitted e = emit(light, -c.to_light);
-      const mask accepted = e.peak > (c.distance_sq + light.disc) * light.xi;
+      const mask accepted = emission_is_accepted(e, c.distance_sq + light.disc, light.xi);
       lanes[i] = static_cast<std::uint16_t>(lanes[i] | (lane_bits(accepted) << lane));
     }
   }

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names every record that C++ and shaders share: device_records_test.cpp reads from its SPIR-V where their members lie.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#include "real_time/light_range/emitters.h"
+#include "real_time/light_range/range_records.h"
+#include "real_time/shading/shading_records.h"
+
+layout(local_size_x = 1) in;
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Records {
+  DiffuseEmitter diffuse_emitters[2];
+  GlossyEmitter glossy_emitters[2];
+  ManyEmitter many_emitters[2];
+  BoundBlock bound_blocks[2];
+  VplRecord vpls[2];
+  ManyLightRecord many_lights[2];
+  RangeFrame range_frames[2];
+  RangePush range_pushes[1];
+  PixelRecord pixels[2];
+  PixelSums pixel_sums[2];
+  TileCounts tile_counts[2];
+  SubsetRange subset_ranges[2];
+  ShadingPush shading_pushes[1];
+};
+layout(push_constant, scalar) uniform Push { Records records; };
+
+void main() { records.diffuse_emitters[0].xi = 0.0; }

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "real_time/vulkan_transfer.h"
+
+#include "base/parallel.h"
+
+namespace luciole {
+namespace {
+
+constexpr std::size_t kAtOnce = 16384;  // of a thread
+
+void put(const Plane3& from, std::size_t i, float (&to)[3]) {
+  for (std::size_t axis = 0; axis < 3; ++axis) to[axis] = from[axis][i];
+}
+
+void add(const float (&sums)[3], float weight, std::size_t pixel, Plane3& to) {
+  for (std::size_t c = 0; c < 3; ++c) to[c][pixel] += sums[c] * weight;
+}
+
+LightCounts& counts_of(LightKind kind, ShadingOutputs& out) {
+  return kind == kDiffuseLights ? out.diffuse : kind == kGlossyLights ? out.glossy : out.many;
+}
+
+// The radiance that a kind is added to, and the layer that has it alone; null: nobody asked.
+std::array<Radiance*, 2> radiance_of(LightKind kind, ShadedRadiance& radiance) {
+  if (kind == kManyLights) return {&radiance.from_many, nullptr};
+  Radiance& alone = kind == kDiffuseLights ? radiance.from_diffuse : radiance.from_glossy;
+  return {&radiance.indirect, alone.diffuse[0].empty() ? nullptr : &alone};
+}
+
+}  // namespace
+
+void pack(const GeometryBuffer& geometry, PixelRecord* to) {
+  parallel_for(geometry.pixel_count(), kAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      PixelRecord& r = to[i];
+      put(geometry.position, i, r.position), put(geometry.normal, i, r.normal), put(geometry.f0, i, r.f0);
+      put(geometry.geometric_normal, i, r.geometric_normal);
+      r.depth = geometry.depth[i], r.f90 = geometry.f90[i], r.ggx_alpha = geometry.ggx_alpha[i], r.unused = 0;
+    }
+  });
+}
+
+void pack(const VirtualPointLights& lights, const SubsetLayout& layout, VplRecord* to) {
+  parallel_for(layout.light.size(), kAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t entry = begin; entry < end; ++entry) {
+      VplRecord& r = to[entry];
+      r = {};
+      const std::uint32_t i = layout.light[entry];
+      if (i == kNoLight) continue;
+      put(lights.position, i, r.position), put(lights.normal, i, r.normal), put(lights.incident, i, r.incident);
+      put(lights.geometric_normal, i, r.geometric_normal), put(lights.flux, i, r.flux), put(lights.f0, i, r.f0);
+      put(lights.diffuse_albedo, i, r.diffuse_albedo);
+      r.f90 = lights.f90[i], r.ggx_alpha = lights.ggx_alpha[i], r.area = lights.area[i];
+      r.key = lights.key[i], r.is_light = 1;
+    }
+  });
+}
+
+void pack(const ManyLights& lights, const SubsetLayout& layout, ManyLightRecord* to) {
+  parallel_for(layout.light.size(), kAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t entry = begin; entry < end; ++entry) {
+      ManyLightRecord& r = to[entry];
+      r = {};
+      const std::uint32_t i = layout.light[entry];
+      if (i == kNoLight) continue;
+      put(lights.position, i, r.position), put(lights.axis, i, r.axis), put(lights.intensity, i, r.intensity);
+      r.scale = lights.scale[i], r.offset = lights.offset[i], r.two_sided = lights.two_sided[i];
+      r.squared = lights.squared[i], r.area = lights.area[i], r.key = lights.key[i], r.is_light = 1;
+    }
+  });
+}
+
+void pack(const SubsetLayout& layout, SubsetRange* to) {
+  for (std::size_t s = 0; s < layout.begin.size(); ++s) to[s] = {layout.begin[s], layout.count[s]};
+}
+
+void unpack(const GeometryBuffer& geometry, LightKind kind, const PixelSums* sums, float weight, ShadingOutputs& out) {
+  const std::array<Radiance*, 2> targets = radiance_of(kind, out.radiance);
+  const bool count = !out.lights_listed.empty();
+  parallel_for(geometry.pixel_count(), kAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (geometry.depth[i] == kNoSurface) continue;
+      for (Radiance* radiance : targets) {
+        if (radiance == nullptr) continue;
+        add(sums[i].diffuse, weight, i, radiance->diffuse);
+        add(sums[i].specular, weight, i, radiance->specular);
+      }
+      if (!count) continue;
+      out.lights_listed[i] += static_cast<float>(sums[i].listed);
+      out.lights_false[i] += static_cast<float>(sums[i].listed - sums[i].accepted);
+    }
+  });
+}
+
+void unpack(LightKind kind, const TileCounts* tiles, std::size_t count, ShadingOutputs& out) {
+  LightCounts& counts = counts_of(kind, out);
+  for (std::size_t tile = 0; tile < count; ++tile) {
+    for (int half = 0; half < 2; ++half) {
+      if (tiles[tile].pixels[half] == 0) continue;
+      counts.listed += std::uint64_t(tiles[tile].listed[half]) * tiles[tile].pixels[half];
+      out.list_lengths.push_back(tiles[tile].listed[half]);
+    }
+    counts.accepted += tiles[tile].accepted;
+  }
+  counts.evaluated = counts.listed;
+}
+
+}  // namespace luciole
