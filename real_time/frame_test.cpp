@@ -101,7 +101,8 @@ TEST(Lobes, left_out_are_missing_from_predictions_and_clamped_ranges_too) {
     return std::accumulate(accepted.begin(), accepted.end(), 0.0);
   };
   const double all = predicted(Lobes::all), diffuse = predicted(Lobes::diffuse), glossy = predicted(Lobes::glossy);
-  EXPECT_GT(diffuse, 0), EXPECT_GT(glossy, 0);
+  EXPECT_GT(diffuse, 0);
+  EXPECT_GT(glossy, 0);
   const double rounding = 2.0 * small_settings().vpls * std::numeric_limits<float>::epsilon();  // of sums per pixel
   EXPECT_NEAR((diffuse + glossy) / all, 1.0, rounding);
   for (const Lobes lobes : {Lobes::diffuse, Lobes::glossy}) {
