@@ -117,7 +117,7 @@ class DirectLight {
         settings_(settings),
         receivers_(probe_receivers(rays, camera_, settings)),
         sampler_(make_light_sampler({*stage.scene, lights_, settings_, receivers_, rays.bounds().diagonal()})),
-        visible_share_(visible_share(rays, lights_, *sampler_, receivers_)) {}
+        colour_share_(colour_share(rays, lights_, *sampler_, receivers_)) {}
 
   // Replaces the choice by one that has learned from this many shadow rays of each pixel, in passes of their own.
   void learn_visibility(const std::vector<std::uint32_t>& pixels, std::uint32_t passes) {
@@ -172,7 +172,7 @@ class DirectLight {
     Sample sample;
     sample.receiver = receiver, sample.chosen = chosen.light;
     if (chosen.light != kNoLight) {
-      if (corrected_) sample.correction = colour_correction(point, chosen, visible_share_);
+      if (corrected_) sample.correction = colour_correction(point, chosen, colour_share_);
       for (Vec3* arrives : {&sample.first, &sample.second}) {
         const auto [unoccluded, visible] = connect(point, bsdf, receiver, chosen, memory, numbers.pair());
         sample.unoccluded += unoccluded * 0.5f;
@@ -262,7 +262,7 @@ class DirectLight {
   const PathSettings& settings_;
   std::vector<Receiver> receivers_;
   std::unique_ptr<LightSampler> sampler_;
-  float visible_share_;
+  float colour_share_;
 };
 
 // The picture's own variance per sample over the squares that relMSE divides by, and those squares.

@@ -21,7 +21,7 @@ struct PathTracer::State {
   CameraRays camera;
   VisibleEmitters visible;
   std::unique_ptr<LightSampler> sampler;
-  float visible_share = 0;
+  float colour_share = 0;
   PathStatistics statistics;
   std::vector<FilmSample> samples;  // of one pass
   double bvh_build_ms;
@@ -65,7 +65,7 @@ Result<PathTracer> PathTracer::create(std::shared_ptr<const Scene> scene, const 
   const std::vector<Receiver> receivers = probe_receivers(state->rays, state->camera, state->settings);
   state->sampler = make_light_sampler({state->rays.scene(), state->lights, state->settings, receivers,
                                        std::max(state->rays.bounds().diagonal(), 1e-6f)});
-  state->visible_share = visible_share(state->rays, state->lights, *state->sampler, receivers);
+  state->colour_share = colour_share(state->rays, state->lights, *state->sampler, receivers);
   if (state->settings.error_bound == 0) state->settings.error_bound = state->sampler->error_bound();
   state->samples.resize(std::size_t(settings.width) * settings.height);
   return PathTracer(std::move(state));
@@ -74,8 +74,8 @@ Result<PathTracer> PathTracer::create(std::shared_ptr<const Scene> scene, const 
 bool PathTracer::add_sample(Film& film) {
   State& s = *state_;
   s.sampler->begin_pass(film.range().end);
-  const PathContext context{s.rays,   s.surfaces, s.lights,   s.infinite,      *s.sampler,
-                            s.camera, s.visible,  s.settings, s.visible_share, film.range().end};
+  const PathContext context{s.rays,   s.surfaces, s.lights,   s.infinite,     *s.sampler,
+                            s.camera, s.visible,  s.settings, s.colour_share, film.range().end};
   const std::uint32_t columns = (s.settings.width + PathBatch::kSide - 1) / PathBatch::kSide;
   const std::uint32_t rows = (s.settings.height + PathBatch::kSide - 1) / PathBatch::kSide;
   std::mutex guard;

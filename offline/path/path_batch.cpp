@@ -62,9 +62,9 @@ Receiver receiver_of(const SurfacePoint& point, Vec3 to_eye) {
   return receiver;
 }
 
-Vec3 colour_correction(const SurfacePoint& point, const ChosenLight& chosen, float visible_share) {
+Vec3 colour_correction(const SurfacePoint& point, const ChosenLight& chosen, float colour_share) {
   const Vec3 reflectance = point.diffuse_albedo + point.f0;
-  return reflectance * chosen.colour_apart * (visible_share / std::max(channel_mean(reflectance), 1e-20f));
+  return reflectance * chosen.colour_apart * (colour_share / std::max(channel_mean(reflectance), 1e-20f));
 }
 
 void PathBatch::render(std::uint32_t left, std::uint32_t top, FilmSample* samples) {
@@ -278,7 +278,7 @@ void PathBatch::ask_finite_light(const Arrival& arrival, const Bsdf& bsdf) {
   const ChosenLight chosen = context_.sampler.choose(path.from, candidates_, choice.first * 0x1p-32, path.choice);
   ++statistics_.light_choices, statistics_.candidates += chosen.weighed;
   if (chosen.light == kNoLight) return;
-  path.radiance += path.throughput * colour_correction(point, chosen, context_.visible_share);
+  path.radiance += path.throughput * colour_correction(point, chosen, context_.colour_share);
   const LightRecord& record = context_.lights.records()[chosen.light];
   const LightPoint light = sample_light_point(context_.rays.scene(), record, point.position, place);
   if (!(light.pdf > 0) || is_black(light.radiance)) return;

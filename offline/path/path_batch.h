@@ -30,7 +30,7 @@ struct PathContext {
   const CameraRays& camera;
   const VisibleEmitters& visible;
   const PathSettings& settings;
-  float visible_share = 0;  // of shadow rays, about
+  float colour_share = 0;  // of the correction of colours
   std::uint64_t sample = 0;
 };
 
@@ -107,6 +107,6 @@ Receiver receiver_of(const SurfacePoint& point, Vec3 to_eye);
 
 // To be added to the light of one chosen lamp, visible or not: 0 on average over the choice, so that the mean stays,
 // and opposite to the error that its colour makes where the others' differ. A control variate.   [W/(m^2 sr)]
-Vec3 colour_correction(const SurfacePoint& point, const ChosenLight& chosen, float visible_share);
+Vec3 colour_correction(const SurfacePoint& point, const ChosenLight& chosen, float colour_share);
 
 }  // namespace luciole

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "equations/cpp/float.h"
 #include "offline/light_sample/light_point.h"
 #include "offline/path/bsdf.h"
 #include "offline/path/path_batch.h"
@@ -49,6 +50,62 @@ void arrive(const RayScene& rays, std::vector<Probe>& probes, std::vector<Receiv
   probes.swap(next);
 }
 
+constexpr std::uint32_t kColourPasses = 16;
+
+// One choice of a light at a probe: what arrives by it, and the correction of its colour.
+struct ColourProbe {
+  Vec3 light{0, 0, 0}, apart{0, 0, 0};
+};
+
+ColourProbe probe_colour(const RayScene& rays, const LightSet& lights, const LightSampler& sampler,
+                         const Receiver& receiver, SampleSequence numbers) {
+  const auto vector = [](const float v[3]) { return Vec3(v[0], v[1], v[2]); };
+  Candidates candidates;
+  ChoiceMemory memory;
+  sampler.share_candidates(&receiver, 1, candidates);
+  const ChosenLight chosen = sampler.choose(receiver, candidates, numbers.pair_of_words().first * 0x1p-32, memory);
+  ColourProbe probe{{0, 0, 0}, chosen.colour_apart};
+  if (chosen.light == kNoLight) return probe;
+  const Vec3 position = vector(receiver.position), normal = vector(receiver.geometric_normal);
+  const LightPoint light = sample_light_point(rays.scene(), lights.records()[chosen.light], position, numbers.pair());
+  const float acceptance = light.pdf > 0 ? sampler.acceptance(chosen.light, light.place) : 0;
+  if (!(acceptance > 0) || !(dot(light.direction, normal) > 0)) return probe;
+  const Vec3 from = rays.offset_from_surface(position, normal);
+  RayPacket packet;
+  for (int lane = 0; lane < kPacketRays; ++lane) packet.skip(lane);
+  packet.set(0, from, rays.offset_from_surface(light.position, light.normal) - from, 0, 1);
+  if ((rays.occluded(packet, Coherence::incoherent) & 1u) != 0) return probe;
+  const f32::SurfaceBrdf brdf{{receiver.diffuse, receiver.diffuse, receiver.diffuse},
+                              {receiver.f0, receiver.f0, receiver.f0},
+                              receiver.f90,
+                              receiver.ggx_alpha};
+  const f32::Reflection reflected = f32::reflection(
+      f32::fix_direction(brdf, vector(receiver.shading_normal), vector(receiver.to_eye)), light.direction);
+  probe.light = light.radiance *
+                ((receiver.diffuse * reflected.diffuse + reflected.specular.x) / (chosen.pmf * acceptance * light.pdf));
+  return probe;
+}
+
+// Least relMSE of light + share * apart, over probes whose means tell what their errors are relative to.
+float best_share(const std::vector<ColourProbe>& probes) {
+  std::vector<double> means(probes.size() / kColourPasses);
+  double brightness = 0;
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    for (std::uint32_t k = 0; k < kColourPasses; ++k) {
+      means[i] += double(channel_mean(probes[i * kColourPasses + k].light)) / kColourPasses;
+    }
+    brightness += means[i] / static_cast<double>(means.size());
+  }
+  double together = 0, squares = 0;
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const auto& [light, apart] = probes[i];
+    const double mean = means[i / kColourPasses], scale = mean * mean + 0.01 * brightness * brightness;
+    if (!(scale > 0)) continue;
+    together += double(dot(light, apart)) / scale, squares += double(dot(apart, apart)) / scale;
+  }
+  return squares > 0 ? static_cast<float>(std::clamp(-together / squares, 0.0, 1.0)) : 0.0f;
+}
+
 }  // namespace
 
 std::vector<Receiver> probe_receivers(const RayScene& rays, const CameraRays& camera, const PathSettings& settings) {
@@ -67,32 +124,18 @@ std::vector<Receiver> probe_receivers(const RayScene& rays, const CameraRays& ca
   return receivers;
 }
 
-float visible_share(const RayScene& rays, const LightSet& lights, LightSampler& sampler,
-                    const std::vector<Receiver>& receivers) {
-  constexpr std::uint64_t kProbePass = ~std::uint64_t(2);  // ranges that are not in the picture
-  if (receivers.empty() || lights.size() == 0) return 0;
-  sampler.begin_pass(kProbePass);
-  Candidates candidates;
-  ChoiceMemory memory;
-  std::uint32_t chosen_lights = 0, visible = 0;
-  for (std::uint32_t i = 0; i < receivers.size(); ++i) {
-    const Receiver& receiver = receivers[i];
-    SampleSequence numbers(kProbeSeed, 1, i);
-    sampler.share_candidates(&receiver, 1, candidates);
-    const ChosenLight chosen = sampler.choose(receiver, candidates, numbers.pair_of_words().first * 0x1p-32, memory);
-    if (chosen.light == kNoLight) continue;
-    ++chosen_lights;
-    const Vec3 position(receiver.position[0], receiver.position[1], receiver.position[2]);
-    const Vec3 normal(receiver.geometric_normal[0], receiver.geometric_normal[1], receiver.geometric_normal[2]);
-    const LightPoint light = sample_light_point(rays.scene(), lights.records()[chosen.light], position, numbers.pair());
-    if (!(light.pdf > 0) || !(sampler.acceptance(chosen.light, light.place) > 0)) continue;
-    const Vec3 from = rays.offset_from_surface(position, normal);
-    RayPacket packet;
-    for (int lane = 0; lane < kPacketRays; ++lane) packet.skip(lane);
-    packet.set(0, from, rays.offset_from_surface(light.position, light.normal) - from, 0, 1);
-    if ((rays.occluded(packet, Coherence::incoherent) & 1u) == 0) ++visible;
+float colour_share(const RayScene& rays, const LightSet& lights, LightSampler& sampler,
+                   const std::vector<Receiver>& receivers) {
+  constexpr std::uint64_t kProbePass = ~std::uint64_t(2);  // ranges that are not in the picture; from there backwards
+  std::vector<ColourProbe> probes(receivers.size() * kColourPasses);
+  for (std::uint32_t pass = 0; pass < kColourPasses && lights.size() > 0; ++pass) {
+    sampler.begin_pass(kProbePass - pass);
+    for (std::uint32_t i = 0; i < receivers.size(); ++i) {
+      probes[std::size_t(i) * kColourPasses + pass] =
+          probe_colour(rays, lights, sampler, receivers[i], SampleSequence(kProbeSeed, 1 + pass, i));
+    }
   }
-  return chosen_lights == 0 ? 0.0f : static_cast<float>(visible) / static_cast<float>(chosen_lights);
+  return best_share(probes);
 }
 
 float distance_at_centre(const RayScene& rays, const Camera& camera) {
