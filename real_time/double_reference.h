@@ -16,6 +16,7 @@ struct DoublePixel {
   std::array<double, 6> light{};  // demodulated diffuse and specular, with the weight n^2
   std::uint32_t accepted = 0;
   bool at_a_tie = false;  // some |p/xi - 1| < 1e-5: float may decide either way
+  double ties = 0;        // how many of those are to be expected of random xi
 };
 
 inline f64::real3 wide(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
@@ -55,7 +56,9 @@ void add_light(const f64::FixedDirectionBrdf& surface, f64::real3 position, f64:
   const f64::real3 to_light = d * f64::inverse_sqrt(distance_sq);
   const f64::Emitted e = emission(light, -to_light);
   const double p = e.peak / l_sq;  // not cut at 1: xi is below 1
-  if (std::abs(p / light.xi - 1) < 1e-5) pixel.at_a_tie = true;
+  constexpr double kTie = 1e-5;
+  if (std::abs(p / light.xi - 1) < kTie) pixel.at_a_tie = true;
+  if (p < 1) pixel.ties += 2 * kTie * p;
   if (!f64::emission_is_accepted(e, l_sq, light.xi)) return;
   ++pixel.accepted;
   if (!(f64::dot(geometric_normal, to_light) > 0)) return;

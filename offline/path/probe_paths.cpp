@@ -51,6 +51,7 @@ void arrive(const RayScene& rays, std::vector<Probe>& probes, std::vector<Receiv
 }
 
 constexpr std::uint32_t kColourPasses = 16;
+constexpr std::size_t kColourProbes = 64;  // the exhaustive choice is slow
 
 // One choice of a light at a probe: what arrives by it, and the correction of its colour.
 struct ColourProbe {
@@ -127,12 +128,14 @@ std::vector<Receiver> probe_receivers(const RayScene& rays, const CameraRays& ca
 float colour_share(const RayScene& rays, const LightSet& lights, LightSampler& sampler,
                    const std::vector<Receiver>& receivers) {
   constexpr std::uint64_t kProbePass = ~std::uint64_t(2);  // ranges that are not in the picture; from there backwards
-  std::vector<ColourProbe> probes(receivers.size() * kColourPasses);
+  const std::size_t count = std::min(receivers.size(), kColourProbes);
+  std::vector<ColourProbe> probes(count * kColourPasses);
   for (std::uint32_t pass = 0; pass < kColourPasses && lights.size() > 0; ++pass) {
     sampler.begin_pass(kProbePass - pass);
-    for (std::uint32_t i = 0; i < receivers.size(); ++i) {
-      probes[std::size_t(i) * kColourPasses + pass] =
-          probe_colour(rays, lights, sampler, receivers[i], SampleSequence(kProbeSeed, 1 + pass, i));
+    for (std::size_t i = 0; i < count; ++i) {
+      const SampleSequence numbers(kProbeSeed, 1 + pass, i);
+      probes[i * kColourPasses + pass] =
+          probe_colour(rays, lights, sampler, receivers[i * receivers.size() / count], numbers);
     }
   }
   return best_share(probes);
