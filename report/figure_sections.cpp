@@ -200,9 +200,8 @@ std::string provenance_section(const Figure& figure) {
   std::string commands;
   for (const std::string& command : figure.commands) commands += escape_html(command) + "\n";
   return text +
-         fmt::format(
-             "<details><summary>Commands: {}</summary>\n<pre tabindex=\"0\">{}</pre>\n</details>\n</section>\n",
-             figure.commands.size(), commands);
+         fmt::format("<details><summary>Commands: {}</summary>\n<pre tabindex=\"0\">{}</pre>\n</details>\n</section>\n",
+                     figure.commands.size(), commands);
 }
 
 }  // namespace luciole
