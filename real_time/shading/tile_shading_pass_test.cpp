@@ -13,7 +13,8 @@ namespace {
 
 bool same_bits(const Plane3& a, const Plane3& b) {
   for (std::size_t c = 0; c < 3; ++c) {
-    if (a[c].size() != b[c].size() || std::memcmp(a[c].data(), b[c].data(), 4 * a[c].size()) != 0) return false;
+    if (a[c].size() != b[c].size()) return false;
+    if (!a[c].empty() && std::memcmp(a[c].data(), b[c].data(), 4 * a[c].size()) != 0) return false;
   }
   return true;
 }
