@@ -39,8 +39,9 @@ endfunction()
 
 # luciole_device_test(name SOURCES a_test.cpp LINK luciole_gpu ... [LABEL statistical] [WIDTHS 8])
 # Tests on a Vulkan device, run as <name>_width_<n> for subgroups of 4, 8 and 16 invocations: so wide Mesa's software Vulkan
-# makes them by its variable; other drivers ignore it. Under the thread sanitizer they do not run, as it would have to know
-# the driver's threads; nor are leaks looked for, as drivers keep what they compiled.
+# makes them by its variable; other drivers ignore it. What it compiles, half a minute in all, it keeps beside the build. Under
+# the thread sanitizer they do not run, as it would have to know the driver's threads; nor are leaks looked for, as drivers
+# keep what they compiled.
 function(luciole_device_test name)
   if(NOT LUCIOLE_TESTS)
     return()
@@ -66,6 +67,7 @@ function(luciole_device_test name)
     math(EXPR bits "${width} * 32")
     add_test(NAME ${name}_width_${width} COMMAND ${name})
     set_tests_properties(${name}_width_${width} PROPERTIES
-      LABELS ${TEST_LABEL} ENVIRONMENT "LP_NATIVE_VECTOR_WIDTH=${bits};ASAN_OPTIONS=detect_leaks=0")
+      LABELS ${TEST_LABEL}
+      ENVIRONMENT "LP_NATIVE_VECTOR_WIDTH=${bits};ASAN_OPTIONS=detect_leaks=0;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/shader_cache")
   endforeach()
 endfunction()
