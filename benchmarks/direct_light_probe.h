@@ -129,8 +129,9 @@ class DirectLight {
   Connection connect(const SurfacePoint& point, const Bsdf& bsdf, const Receiver& receiver, const ChosenLight& chosen,
                      const ChoiceMemory& memory, Vec2 place) const {
     const LightRecord& record = lights_.records()[chosen.light];
-    const LightPoint light = by_area_ ? point_by_area(record, point.position, place)
-                                      : sample_light_point(rays_.scene(), record, point.position, place);
+    const LightPoint light = by_area_ && record.lamp == 0
+                                 ? point_by_area(record, point.position, place)
+                                 : sample_light_point(rays_.scene(), record, point.position, place);
     const float acceptance = light.pdf > 0 ? sampler_->acceptance(chosen.light, light.place) : 0;
     if (!(acceptance > 0)) return {};
     float weight = 1;
@@ -151,7 +152,7 @@ class DirectLight {
 
   LightPoint point_by_area(const LightRecord& record, Vec3 receiver, Vec2 place) const {
     LightPoint light = uniform_light_point(rays_.scene(), record, receiver, place);
-    light.pdf = record.lamp > 0 ? 1.0f : density_by_area(record, light, receiver);
+    light.pdf = density_by_area(record, light, receiver);
     return light;
   }
   // [1/sr]
