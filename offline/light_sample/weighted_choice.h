@@ -2,6 +2,7 @@
 // One of many lights, with a probability proportional to its weight, while the lights still come in: a weighted
 // reservoir of one, that takes a chunk at a time and uses one random number in all.   [Chao 1982]
 #pragma once
+#include <array>
 #include <cstdint>
 
 #include "offline/light_sample/light_sampler.h"
@@ -46,7 +47,11 @@ class WeightedChoice {
   void add(const LightRows& rows, const Receiver& receiver, const Weighing& how) {
     weigh_in_chunks(rows, receiver, how,
                     [this](const std::uint32_t* lights, const Vec3* tints, const float* weights, std::uint32_t count) {
-                      for (std::uint32_t k = 0; k < count; ++k) colour_ += tints[k] * weights[k];
+                      Vec3 colour{0, 0, 0};
+                      for (std::uint32_t k = 0; k < count; ++k) colour += tints[k] * weights[k];
+                      // As the weights: a chunk in single precision, the sum over chunks in double. What rounding
+                      // takes from the sum of very many lights would be missing from their mean.
+                      colour_[0] += colour.x, colour_[1] += colour.y, colour_[2] += colour.z;
                       add(lights, tints, weights, count);
                     });
   }
@@ -79,14 +84,17 @@ class WeightedChoice {
   float total() const { return static_cast<float>(total_); }
   ChosenLight chosen() const {
     if (light_ == kNoLight) return {kNoLight, 0, weighed_};
-    return {light_, static_cast<float>(weight_ / total_), weighed_, colour_ - tint_ * static_cast<float>(total_)};
+    const auto apart = [this](double sum, float tint) { return static_cast<float>(sum - tint * total_); };
+    return {light_, static_cast<float>(weight_ / total_), weighed_,
+            Vec3{apart(colour_[0], tint_.x), apart(colour_[1], tint_.y), apart(colour_[2], tint_.z)}};
   }
 
  private:
   double u_, total_ = 0;
   std::uint32_t light_ = kNoLight, weighed_ = 0;
   float weight_ = 0;
-  Vec3 colour_{0, 0, 0}, tint_{0, 0, 0};  // sum of tints by weight; the chosen one's
+  std::array<double, 3> colour_{};  // sum of tints by weight
+  Vec3 tint_{0, 0, 0};              // of the chosen one
 };
 
 }  // namespace luciole
