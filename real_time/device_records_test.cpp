@@ -161,6 +161,7 @@ const Expected kMembers[] = {
     LUCIOLE_MEMBER(TileCounts, pixels),
     LUCIOLE_MEMBER(TileCounts, listed),
     LUCIOLE_MEMBER(TileCounts, accepted),
+    LUCIOLE_MEMBER(TileCounts, tests),
     LUCIOLE_MEMBER(SubsetRange, begin),
     LUCIOLE_MEMBER(SubsetRange, count),
     LUCIOLE_MEMBER(ShadingPush, pixels),

@@ -51,6 +51,7 @@ void count_lights(const ShadingOutputs& shaded, FrameStatistics& statistics) {
   const auto per_pixel = [&](auto count) {
     return PerPixel{count(shaded.diffuse) / pixels, count(shaded.glossy) / pixels, count(shaded.many) / pixels};
   };
+  statistics.tests = per_pixel([](const LightCounts& c) { return static_cast<double>(c.tests); });
   statistics.listed = per_pixel([](const LightCounts& c) { return static_cast<double>(c.listed); });
   statistics.accepted = per_pixel([](const LightCounts& c) { return static_cast<double>(c.accepted); });
   statistics.false_positives =

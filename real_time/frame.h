@@ -28,6 +28,7 @@ struct FrameStatistics {
   std::vector<std::pair<std::string, double>> passes_ms;  // in the order of the frame
   double frame_ms = 0;                                    // without loading and BVH building
   std::uint64_t virtual_point_lights = 0, many_lights = 0;
+  PerPixel tests;  // made by culling (LightCounts)
   // listed: in the list of the pixel's depth half or cluster; splatting: lights whose splat covers the pixel
   PerPixel listed, accepted, false_positives;
   // Through the shading kernel: the CPU shades 16 pixels at once, and tiled culling tests each 16 once more.

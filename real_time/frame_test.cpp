@@ -206,6 +206,38 @@ TEST(LightCulling, counts_what_it_lists) {
   }
 }
 
+// The paper's lists are those of tiles: every tile with a surface asks every light that it sees, once for both halves.
+TEST(LightCulling, counts_its_tests) {
+  const Stage scene = stage("recipe:cornell");
+  Settings settings = small_settings();
+  settings.interleave = 1, settings.tile_test = TileTest::paper;
+  const auto frame_by = [&](Culling culling) {
+    settings.culling = culling;
+    Result<Renderer> renderer = Renderer::create(scene.scene, scene.camera, scene.primaries, settings);
+    return *renderer->render(0, {"depth"});
+  };
+  const Frame tiled = frame_by(Culling::tiled);
+  double surfaces = 0, tiles = 0;
+  for (std::uint32_t top = 0; top < settings.height; top += 16) {
+    for (std::uint32_t left = 0; left < settings.width; left += 16) {
+      int pixels = 0;
+      for (std::uint32_t y = top; y < std::min(top + 16, settings.height); ++y) {
+        for (std::uint32_t x = left; x < std::min(left + 16, settings.width); ++x)
+          pixels += std::isfinite(tiled.layers.channels.at("depth.V")[std::size_t(y) * settings.width + x]);
+      }
+      surfaces += pixels, tiles += pixels > 0;
+    }
+  }
+  const double lights = static_cast<double>(tiled.statistics.virtual_point_lights);
+  EXPECT_GT(lights, 0);
+  EXPECT_NEAR(tiled.statistics.tests.diffuse * surfaces, lights * tiles, 1e-6 * lights * tiles);
+  EXPECT_EQ(frame_by(Culling::none).statistics.tests.total(), 0);
+  // Each light in sight costs the rivals its triangles, and then more.
+  EXPECT_GT(frame_by(Culling::clustered).statistics.tests.diffuse * surfaces, 0);
+  settings.tile_test = TileTest::tight;
+  EXPECT_GT(frame_by(Culling::tiled).statistics.tests.diffuse, tiled.statistics.tests.diffuse);
+}
+
 TEST(LightCulling, of_another_seed_is_another_picture) {  // the comparison above can fail
   const Stage scene = stage("recipe:cornell");
   Settings settings = small_settings();

@@ -28,6 +28,7 @@ TEST(VulkanFrame, is_the_cpus_frame_with_the_same_layers_and_counts) {
     for (const Ranges ranges : {Ranges::stochastic, Ranges::clamped}) {
       Settings settings = small_settings();
       settings.ranges = ranges, settings.filter = Filter::bilateral;
+      settings.tile_test = TileTest::paper;  // without the CPU's second test, of 16 pixels
       const Front front(address, settings);
       const Result<Frame> cpu = render(front, settings);
       Settings other_seed = settings;
@@ -42,6 +43,8 @@ TEST(VulkanFrame, is_the_cpus_frame_with_the_same_layers_and_counts) {
       for (const auto& [name, values] : cpu->layers.channels)
         EXPECT_EQ(device->layers.channels.count(name), 1u) << name;
       EXPECT_NEAR(device->statistics.accepted.total() / cpu->statistics.accepted.total(), 1.0, 1e-3) << address;
+      EXPECT_EQ(device->statistics.tests.total(), cpu->statistics.tests.total()) << address;
+      EXPECT_GT(device->statistics.tests.total(), 0) << address;
       EXPECT_EQ(device->statistics.engine, "vulkan");
       EXPECT_EQ(cpu->statistics.engine, "cpu");
     }

@@ -101,6 +101,7 @@ void unpack(LightKind kind, const TileCounts* tiles, std::size_t count, ShadingO
       out.list_lengths.push_back(tiles[tile].listed[half]);
     }
     counts.accepted += tiles[tile].accepted;
+    counts.tests += tiles[tile].tests;
   }
   counts.evaluated = counts.listed;
 }

@@ -30,6 +30,7 @@ Json frame_figures(const FrameStatistics& frame) {
   figures["lights"] = frame.virtual_point_lights + frame.many_lights;
   figures["virtual_point_lights"] = frame.virtual_point_lights;
   figures["many_lights"] = frame.many_lights;
+  figures["culling_tests_per_pixel"] = per_pixel(frame.tests);
   figures["lights_listed_per_pixel"] = per_pixel(frame.listed);
   figures["lights_accepted_per_pixel"] = per_pixel(frame.accepted);
   figures["false_positives_per_pixel"] = per_pixel(frame.false_positives);

@@ -248,10 +248,13 @@ LUCIOLE_FN std::uint32_t slices_of(const TileBand& band, float low, float high) 
 
 std::uint32_t cluster_light(const ProxyEllipsoid& e, std::uint32_t light, const TileBand& band,
                             const SliceBorders& borders, const IcosahedronProxy& proxy, const TileDepths& depths,
-                            LightSpan* spans) {
+                            LightSpan* spans, std::uint64_t& tests) {
+  tests += IcosahedronProxy::kTriangles;
   const ProxyEdges edges = edges_of(e, proxy);
   const ScreenRectangle rectangle = tiles_in(band, slopes_of(e, proxy, edges, borders.low[0]));
   if (is_empty(rectangle)) return 0;
+  tests += static_cast<std::uint32_t>((rectangle.column_end - rectangle.column_begin) *
+                                      (rectangle.row_end - rectangle.row_begin));
   CoveredTiles tiles(band, rectangle, depths);
   add_vertices(e, proxy, tiles);
   add_border_crossings<0>(edges, tiles);
@@ -274,7 +277,8 @@ std::uint32_t cluster_light(const ProxyEllipsoid& e, std::uint32_t light, const 
 }  // namespace
 
 std::uint32_t cluster_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,
-                             const IcosahedronProxy& proxy, const TileDepths& depths, LightSpan* spans) {
+                             const IcosahedronProxy& proxy, const TileDepths& depths, LightSpan* spans,
+                             std::uint64_t& tests) {
   const std::uint32_t near = lights_near(block, band);
   if (near == 0) return 0;
   const SliceBorders borders(band.slices);
@@ -282,7 +286,7 @@ std::uint32_t cluster_lights(const BoundBlock& block, std::uint32_t first_light,
   for (std::uint32_t bits = near; bits != 0; bits &= bits - 1) {
     const int lane = __builtin_ctz(bits);
     count += cluster_light(load_proxy(block, lane), first_light + static_cast<std::uint32_t>(lane), band, borders,
-                           proxy, depths, spans + count);
+                           proxy, depths, spans + count, tests);
   }
   return count;
 }

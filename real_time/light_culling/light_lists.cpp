@@ -116,6 +116,7 @@ class Rasteriser {
       entries_ += count;
     }
     if (in_.culling == Culling::splatting) coverings_.give_back(std::move(memory.covering));
+    tests_ += memory.tests;
   }
 
   bool too_long() const {
@@ -125,12 +126,14 @@ class Rasteriser {
   }
 
   AlignedVector<float> covering() { return coverings_.sum(); }
+  std::uint64_t tests() const { return tests_; }
 
  private:
   struct Memory {
     std::vector<float> low, high;
     AlignedVector<LightSpan> found;
     AlignedVector<float> covering;
+    std::uint64_t tests = 0;
   };
 
   std::uint32_t spans_of(const Unit& unit, std::uint32_t b, Memory& m) {
@@ -138,15 +141,16 @@ class Rasteriser {
     const std::uint32_t first_light = unit.first_light + b * 16;
     if (in_.culling == Culling::clustered) {
       return LUCIOLE_FOR_ISA(in_.isa, cluster_lights(block, first_light, unit.band, circumscribed_icosahedron(),
-                                                     {m.low.data(), m.high.data()}, m.found.data()));
+                                                     {m.low.data(), m.high.data()}, m.found.data(), m.tests));
     }
     return LUCIOLE_FOR_ISA(in_.isa, splat_lights(block, first_light, unit.band, circumscribed_geodesic(),
-                                                 in_.parts.cells(), m.covering.data(), m.found.data()));
+                                                 in_.parts.cells(), m.covering.data(), m.found.data(), m.tests));
   }
 
   const LightListInputs& in_;
   Coverings coverings_;
   std::atomic<std::size_t> entries_{0};
+  std::atomic<std::uint64_t> tests_{0};
 };
 
 // Returns the seconds that the calls took, summed over threads.
@@ -201,7 +205,7 @@ LightLists list_lights(const LightListInputs& in) {
   std::vector<Unit> units = units_of(in);
   Rasteriser rasteriser(in);
   lists.busy_seconds += for_each_unit(units, [&](Unit& unit) { rasteriser.run(unit); });
-  lists.complete = !rasteriser.too_long();
+  lists.complete = !rasteriser.too_long(), lists.tests = rasteriser.tests();
   if (!lists.complete) return lists;
   if (in.culling == Culling::splatting) lists.covering = rasteriser.covering();
   lay_out(units, in.parts.tiles(), lists.begin);

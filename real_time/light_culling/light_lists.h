@@ -21,6 +21,7 @@ struct LightLists {
   AlignedVector<std::uint32_t> light;  // index in the subset
   AlignedVector<std::uint32_t> parts;  // bits, as in TileParts::occupied
   AlignedVector<float> covering;       // splatting: per part and lane of CellPixels, how many lights cover the pixel
+  std::uint64_t tests = 0;             // that the proxy kernels made
   double busy_seconds = 0;             // summed over threads
   std::size_t bytes = 0;               // at most in use at once, what is gone by now included
 };

@@ -58,12 +58,16 @@ struct TileDepths {
 //   cluster_lights  by conservative rasterisation of an icosahedron
 //   splat_lights    by rasterisation of the back of a geodesic sphere, where it lies behind the pixel's surface
 //     covering  per part and lane; each covered pixel's is raised by 1
-#define LUCIOLE_DECLARE_PROXY_KERNELS(isa)                                                                            \
-  namespace luciole::isa {                                                                                            \
-  std::uint32_t cluster_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,              \
-                               const IcosahedronProxy& proxy, const TileDepths& depths, LightSpan* spans);            \
-  std::uint32_t splat_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,                \
-                             const GeodesicProxy& proxy, const SplatCells& cells, float* covering, LightSpan* spans); \
+//   tests  raised by the tests made: a light's triangles are one each, then every tile of its rectangle, or every
+//          triangle in every cell that it may cover
+#define LUCIOLE_DECLARE_PROXY_KERNELS(isa)                                                                           \
+  namespace luciole::isa {                                                                                           \
+  std::uint32_t cluster_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,             \
+                               const IcosahedronProxy& proxy, const TileDepths& depths, LightSpan* spans,            \
+                               std::uint64_t& tests);                                                                \
+  std::uint32_t splat_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,               \
+                             const GeodesicProxy& proxy, const SplatCells& cells, float* covering, LightSpan* spans, \
+                             std::uint64_t& tests);                                                                  \
   }
 }  // namespace luciole
 LUCIOLE_DECLARE_PROXY_KERNELS(avx512)

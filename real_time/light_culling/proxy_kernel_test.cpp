@@ -101,8 +101,9 @@ std::vector<std::uint32_t> clusters_of(Isa isa, const Screen& screen, const Boun
                                        const IcosahedronProxy& proxy) {
   std::vector<LightSpan> spans(16 * kTiles);
   std::vector<float> low(kTiles), high(kTiles);
-  const std::uint32_t count =
-      LUCIOLE_FOR_ISA(isa, cluster_lights(block, 0, screen.band, proxy, {low.data(), high.data()}, spans.data()));
+  std::uint64_t tests = 0;
+  const std::uint32_t count = LUCIOLE_FOR_ISA(
+      isa, cluster_lights(block, 0, screen.band, proxy, {low.data(), high.data()}, spans.data(), tests));
   std::vector<std::uint32_t> clusters(kTiles, 0u);
   for (std::uint32_t i = 0; i < count; ++i) clusters[spans[i].tile] = spans[i].parts;
   return clusters;
@@ -195,7 +196,9 @@ float covering(Isa isa, const BoundBlock& block, const GeodesicProxy& proxy, rea
   cell.depth[kLane] = static_cast<float>(point.z);
   alignas(64) float counts[kGroupPixels] = {};
   std::vector<LightSpan> spans(16 * kTiles);
-  LUCIOLE_FOR_ISA(isa, splat_lights(block, 0, screen.band, proxy, {&cell, &cell.depth[kLane]}, counts, spans.data()));
+  std::uint64_t tests = 0;
+  LUCIOLE_FOR_ISA(isa,
+                  splat_lights(block, 0, screen.band, proxy, {&cell, &cell.depth[kLane]}, counts, spans.data(), tests));
   return counts[kLane];
 }
 

@@ -8,7 +8,7 @@ namespace luciole {
 
 // 20 triangles. Lanes past the last vertex and edge repeat the first.
 struct alignas(64) IcosahedronProxy {
-  static constexpr int kVertices = 12, kEdges = 30, kSlabs = 10;
+  static constexpr int kVertices = 12, kEdges = 30, kSlabs = 10, kTriangles = 2 * kSlabs;
   float vertex[3][16];
   float edge_from[3][32], edge_to[3][32];
   float slab_normal[3][kSlabs];  // opposite triangles lie in the planes normal . p = +-distance

@@ -176,7 +176,7 @@ LUCIOLE_FN RowTriangles triangles_of_row(const Triangles& t, int row) {
 // Which pixels of a cell all triangles cover. Triangles that end before the cell's nearest pixel are not looked at, as
 // hierarchical depth tests leave them out.
 LUCIOLE_FN std::uint32_t covered_pixels(const CellPixels& cell, float nearest, const Triangles& t,
-                                        const RowTriangles& row, int column) {
+                                        const RowTriangles& row, int column, std::uint64_t& tests) {
   const float left = static_cast<float>(column) - kOverlap, right = static_cast<float>(column + 1) + kOverlap;
   std::uint32_t covered = 0;
   for (int r = 0; r < kRegisters; ++r) {
@@ -185,6 +185,7 @@ LUCIOLE_FN std::uint32_t covered_pixels(const CellPixels& cell, float nearest, c
     const mask meets = load(t.row[kLeft] + first) <= right && load(t.row[kRight] + first) >= left &&
                        load(t.row[kFarthest] + first) >= nearest;
     for (std::uint32_t bits = row.bits[r] & lane_bits(meets); bits != 0; bits &= bits - 1) {
+      ++tests;
       covered |= covered_pixels(cell, t, first + __builtin_ctz(bits));
       if (covered == 0xffffu) return covered;  // each pixel is covered once
     }
@@ -208,7 +209,8 @@ LUCIOLE_FN std::uint32_t count_pixels(const TileBand& band, const SurfacePlane& 
 }
 
 std::uint32_t splat_light(const ProxyEllipsoid& e, std::uint32_t light, const TileBand& band, const SplatCells& cells,
-                          const GeodesicProxy& proxy, float* covering, LightSpan* spans) {
+                          const GeodesicProxy& proxy, float* covering, LightSpan* spans, std::uint64_t& tests) {
+  tests += kTriangles;
   Triangles triangles;
   const Splat splat = set_up(e, proxy, band, triangles);
   const ScreenRectangle& all = splat.cells;
@@ -225,7 +227,7 @@ std::uint32_t splat_light(const ProxyEllipsoid& e, std::uint32_t light, const Ti
         const int cell = __builtin_ctz(left);
         const CellPixels& pixels = cells.pixels[part];
         const std::uint32_t covered = covered_pixels(pixels, cells.nearest[part], triangles, rows[cell / kCells],
-                                                     tile_column * kCells + cell % kCells);
+                                                     tile_column * kCells + cell % kCells, tests);
         if (covered == 0) continue;
         const std::uint32_t kept =
             count_pixels(band, e.test.surface, pixels, covered, covering + std::size_t(part) * kGroupPixels);
@@ -240,12 +242,13 @@ std::uint32_t splat_light(const ProxyEllipsoid& e, std::uint32_t light, const Ti
 }  // namespace
 
 std::uint32_t splat_lights(const BoundBlock& block, std::uint32_t first_light, const TileBand& band,
-                           const GeodesicProxy& proxy, const SplatCells& cells, float* covering, LightSpan* spans) {
+                           const GeodesicProxy& proxy, const SplatCells& cells, float* covering, LightSpan* spans,
+                           std::uint64_t& tests) {
   std::uint32_t count = 0;
   for (std::uint32_t near = lights_near(block, band); near != 0; near &= near - 1) {
     const int lane = __builtin_ctz(near);
     count += splat_light(load_proxy(block, lane), first_light + static_cast<std::uint32_t>(lane), band, cells, proxy,
-                         covering, spans + count);
+                         covering, spans + count, tests);
   }
   return count;
 }

@@ -277,12 +277,13 @@ void write_sums(TilePixel pixel, ShadedPixel shaded, uint lights) {
   if (pixel.is_surface) Sums(push.sums).value[pixel.index] = sums;
 }
 
-void write_counts(TileHalves halves, uint lists[2], uint accepted) {
+// asked: lights of the subset that were asked, those of earlier parts with them.
+void write_counts(TileHalves halves, uint lists[2], uint accepted, uint asked) {
   const uint tile =
       (gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y) * gl_NumWorkGroups.x + gl_WorkGroupID.x;
   const uint all_accepted = tile_sum(accepted);
   if (thread() != 0u) return;
-  TileCounts counts = TileCounts(halves.pixels, lists, all_accepted);
+  TileCounts counts = TileCounts(halves.pixels, lists, all_accepted, asked);
   if (push.first_light > 0u) {
     counts.listed[0] += Counts(push.tile_counts).value[tile].listed[0];
     counts.listed[1] += Counts(push.tile_counts).value[tile].listed[1];
@@ -321,6 +322,6 @@ void main() {
     lights_of_half[1] += halves.pixels[1] > 0u ? counts[1] : 0u;
     barrier();  // the next batch writes the lists anew
   }
-  write_counts(halves, lights_of_half, shaded.accepted);
+  write_counts(halves, lights_of_half, shaded.accepted, any_surface && kCulled != 0u ? end : 0u);
   write_sums(pixel, shaded, lights_of_half[halves.half_of_pixel]);
 }

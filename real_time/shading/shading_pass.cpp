@@ -24,7 +24,7 @@ void clear(Radiance& radiance, std::size_t pixels) {
 }
 
 void add_counts(LightCounts& to, const LightCounts& from) {
-  to.listed += from.listed, to.evaluated += from.evaluated, to.accepted += from.accepted;
+  to.tests += from.tests, to.listed += from.listed, to.evaluated += from.evaluated, to.accepted += from.accepted;
 }
 
 // All blocks of 16n x 16n pixels.
@@ -54,6 +54,9 @@ void shade_listed(const ShadingInputs& inputs, const TileParts& parts, const Til
   {
     const PartLists lists(inputs, parts, window);
     out.culling_seconds += lists.busy_seconds();
+    // Those of a window whose lists grew too long count as well: they were made.
+    out.diffuse.tests += lists.diffuse().tests, out.glossy.tests += lists.glossy().tests;
+    out.many.tests += lists.many().tests;
     if (lists.complete()) {
       out.list_bytes = std::max(out.list_bytes, lists.bytes()), ++out.windows;
       return run_blocks(window, out, [&] { return ListWorker(inputs, lists, out); });

@@ -32,6 +32,9 @@ struct ShadingInputs {
 // Counts of one kind of lobe. A list belongs to one depth half of one tile, or to one cluster; splatting gives lights
 // to single pixels, and its lists are those of cells of 4x4 pixels.
 struct LightCounts {
+  // Made by culling. Tiled: a light against a tile, both halves at once, or against a group of 16 pixels. The rivals:
+  // see proxy_kernel.h.
+  std::uint64_t tests = 0;
   std::uint64_t listed = 0;     // light x pixel pairs that culling left
   std::uint64_t evaluated = 0;  // pairs that went through the shading kernel, 16 lanes a group
   std::uint64_t accepted = 0;   // p > xi

@@ -30,6 +30,7 @@ struct TileCounts {
   word_ pixels[2];  // with a surface, in the near and the far half
   word_ listed[2];  // lights
   word_ accepted;   // light x pixel pairs
+  word_ tests;      // lights that were asked whether they touch the tile
 };
 
 // Where a subset's lights of one kind lie.
@@ -52,7 +53,7 @@ struct ShadingPush {
 
 #if defined(__cplusplus)
 static_assert(sizeof(PixelRecord) == 64 && offsetof(PixelRecord, f0) == 48);
-static_assert(sizeof(PixelSums) == 32 && sizeof(TileCounts) == 20 && sizeof(SubsetRange) == 8);
+static_assert(sizeof(PixelSums) == 32 && sizeof(TileCounts) == 24 && sizeof(SubsetRange) == 8);
 static_assert(sizeof(ShadingPush) <= 128 && offsetof(ShadingPush, light_count) == 104);
 #endif
 

@@ -39,7 +39,7 @@ TouchingLights& ListMemory::reserve(std::size_t lights) {
 }
 
 template <class Emitter>
-void TileWorker::list_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset) {
+void TileWorker::list_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset, LightCounts& added) {
   const std::uint32_t count = lights.count[subset];
   TouchingLights& near_half = halves_[0].reserve(count);
   TouchingLights& far_half = halves_[1].reserve(count);
@@ -51,13 +51,14 @@ void TileWorker::list_lights(const ReachingLights<Emitter>& lights, std::uint32_
     }
     return;
   }
+  added.tests += count;
   const BoundBlock* blocks = lights.bounds.data() + lights.begin[subset] / 16;
   const TileFrustum frustum = frustum_of(tile_);
   LUCIOLE_FOR_ISA(inputs_.settings.isa,
                   cull_tile(blocks, (count + 15) / 16, frustum, inputs_.settings.tile_test, near_half, far_half));
 }
 
-void TileWorker::list_lights_of_groups(std::uint32_t subset_lights) {
+void TileWorker::list_lights_of_groups(std::uint32_t subset_lights, LightCounts& added) {
   group_begin_.assign(1, 0u);
   for (std::uint32_t g = 0; g < tile_.group_count; ++g) {
     const PixelGroup& group = tile_.groups[g];
@@ -72,6 +73,7 @@ void TileWorker::list_lights_of_groups(std::uint32_t subset_lights) {
     if (inputs_.settings.culling == Culling::none || inputs_.settings.tile_test == TileTest::paper) {
       std::copy(lights.index, lights.index + count, list);
     } else {
+      added.tests += count;
       count = LUCIOLE_FOR_ISA(inputs_.settings.isa, cull_group(lights, group, list));
     }
     group_begin_.push_back(begin + count);
@@ -83,8 +85,8 @@ void TileWorker::add_lights(const ReachingLights<Emitter>& lights, std::uint32_t
                             Radiance& radiance, Radiance* part) {
   if (lights.emitters.empty()) return;
   const auto start = std::chrono::steady_clock::now();
-  list_lights(lights, subset);
-  list_lights_of_groups(lights.count[subset]);
+  list_lights(lights, subset, added);
+  list_lights_of_groups(lights.count[subset], added);
   for (int half = 0; half < 2; ++half)
     if (tile_.half[half].pixels > 0) counts.list_lengths.push_back(halves_[half].lists().count);
   const auto listed = std::chrono::steady_clock::now();

@@ -40,9 +40,9 @@ class TileWorker {
   void add_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset, LightCounts& added, Radiance& radiance,
                   Radiance* part = nullptr);
   template <class Emitter>
-  void list_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset);
+  void list_lights(const ReachingLights<Emitter>& lights, std::uint32_t subset, LightCounts& added);
   // The lists of all groups one after the other, as indices into the subset.
-  void list_lights_of_groups(std::uint32_t subset_lights);
+  void list_lights_of_groups(std::uint32_t subset_lights, LightCounts& added);
 
   const ShadingInputs& inputs_;
   ShadingOutputs& outputs_;
