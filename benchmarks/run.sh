@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Remakes docs/results: benchmarks/run.sh [culling|baselines|speed|kernel|scaling|steadiness|filter|memory|light_choice|
-# variance_parts|ray_rate|equal_time|pbrt ...], all without arguments (equal_time alone takes three hours; pbrt only where
+# variance_parts|ray_rate|equal_time|pbrt ...], all without arguments (equal_time alone takes an hour and three quarters; pbrt only where
 # $PBRT names that program). Builds into $BUILD (default: build). Shots of files take part where $LUCIOLE_SCENES names their folder.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -27,20 +27,8 @@ page() {
   mv "$work/$name.md" "$results/$name.md"
 }
 
-# Value of KEY in a statistics file of one frame: "passes_ms/culling" is the line "culling" below "passes_ms".
-value() {
-  awk -v path="$2" '
-    BEGIN { depth = split(path, name, "/"); at = 1 }
-    { line = $0; sub(/^ */, "", line)
-      if (index(line, "\"" name[at] "\":") == 1) {
-        if (at < depth) { at++; next }
-        sub(/^[^:]*: */, "", line); sub(/,$/, "", line); print line; exit } }' "$1"
-}
-
-# The names of the passes of a statistics file.
-passes() {
-  awk '/"passes_ms"/ { inside = 1; next } inside && /}/ { exit } inside { split($0, part, "\""); print part[2] }' "$1"
-}
+# shellcheck source=benchmarks/statistics.sh
+source benchmarks/statistics.sh
 
 median() { sort -g | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
 
@@ -150,7 +138,7 @@ filter() {
   done
 }
 
-# Every choice of lights for 30 s and for two minutes on every scene: three hours.
+# Every choice of lights for 30 s on every scene, the rivals that count for two minutes: an hour and three quarters.
 equal_time() {
   local scenes=('recipe:lamps?count=60000' 'recipe:lamps?count=5000' 'recipe:lamps?count=1000000'
     'recipe:lamps?count=60000&glossy=0.15')
@@ -161,9 +149,10 @@ equal_time() {
 TEXT
   printf 'Remake: `benchmarks/run.sh equal_time`. Processor: %s.\n\n' "$processor"
   cat << 'TEXT'
-1280x720; every choice of lights gets 30 s, then two minutes on all cores, in whole samples of the picture; its relMSE is
-what was measured times the time taken over the time given. The reference is the mean of two renders of other random numbers, and the
-variance that their difference tells is taken off: errors are against the truth, not against the reference's noise.
+1280x720; every choice of lights gets 30 s on all cores, and culling, the tree and uniform choice go on to two minutes, in
+whole samples of the picture; relMSE is what was measured times the time taken over the time given. The reference is the
+mean of two renders of other random numbers, and the variance that their difference tells is taken off: errors are against
+the truth, not against the reference's noise.
 Clamped ranges are biased: their error does not fall as time passes.
 TEXT
   "$programs/equal_time_benchmark" 30,120 120 1280x720 "${scenes[@]}"

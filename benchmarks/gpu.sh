@@ -1,0 +1,139 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Times the passes of the Vulkan engine, after its pictures were found to be the CPU engine's.
+#   benchmarks/gpu.sh [--device NAME] [--size 1920x1080] [--vpls 65536,1048576] [--frames 50] [--peak TFLOPS,TB/s]
+#                     [--store FOLDER] [SHOT ...]
+# Builds into $BUILD (default: build). Shots: sponza, sibenik and gallery where $LUCIOLE_SCENES names the scenes' folder,
+# else gallery. Pictures of the CPU engine are kept in FOLDER (default: out/gpu) and made where they are missing. Writes
+# docs/results/CHIP/culling_and_shading.md. With the device's peak rates it says how far from its floors each time is.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=${BUILD:-build} device='' size=1920x1080 vpls=65536,1048576 frames=50 peak='' store=out/gpu shots=()
+# The mean square error relative to the picture that a light more or less at the edge of its range may make; other random
+# numbers make more than a hundred times as much.
+most_error=1e-4
+
+usage() {
+  sed -n '4,5s/^# *//p' "$0" >&2
+  exit 2
+}
+
+while (($#)); do
+  case $1 in
+    --device | --size | --vpls | --frames | --peak | --store)
+      (($# > 1)) || usage
+      declare "${1#--}=$2"
+      shift 2
+      ;;
+    -*) usage ;;
+    *) shots+=("$1") && shift ;;
+  esac
+done
+if ((!${#shots[@]})); then
+  shots=(gallery)
+  [[ -n ${LUCIOLE_SCENES:-} ]] && shots=(sponza sibenik gallery)
+fi
+
+# shellcheck source=benchmarks/statistics.sh
+source benchmarks/statistics.sh
+[[ -f $build/build.ninja ]] || cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DLUCIOLE_TESTS=OFF
+cmake --build "$build" --target luciole operations_benchmark > /dev/null
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir -p "$store"
+engine=(--engine vulkan)
+[[ -n $device ]] && engine+=(--device "$device")
+"$build/benchmarks/operations_benchmark" > "$work/operations"
+
+render() { "$build/luciole" render "$@" --size "$size" --filter none --quiet > /dev/null; }
+
+# cpu_picture SHOT COUNT LOBES: FOLDER/NAME.exr and .json, unless they are there.
+cpu_picture() {
+  local name=$store/$1-$2-$3-$size
+  [[ -f $name.exr && -f $name.json ]] && return
+  render "$1" --vpls "$2" --lobes "$3" -o "$name.exr" --statistics "$name.json"
+}
+
+# The same picture, or the end.
+check() {
+  local name=$1-$2-$3-$size error
+  render "$1" --vpls "$2" --lobes "$3" "${engine[@]}" -o "$work/picture.exr" --statistics "$work/one.json"
+  error=$("$build/luciole" compare "$work/picture.exr" "$store/$name.exr" | awk '$1 == "relmse" { print $2 }')
+  if ! awk -v e="$error" -v most="$most_error" 'BEGIN { exit !(e <= most) }'; then
+    echo "gpu.sh: $1 with $2 VPLs, $3 lobes: relMSE to the CPU's picture is $error, more than $most_error" >&2
+    exit 1
+  fi
+  printf '%s' "$error"
+}
+
+# Milliseconds that the device needs for operations, and for bytes, at its peak rates.
+floors() {
+  awk -v size="$size" -v peak="$peak" -v vpls="$2" -v lobes="$3" -v tests="$(value "$1" culling_tests_per_pixel/total)" \
+    -v ld="$(value "$1" lights_listed_per_pixel/diffuse)" -v lg="$(value "$1" lights_listed_per_pixel/glossy)" \
+    -v ad="$(value "$1" lights_accepted_per_pixel/diffuse)" -v ag="$(value "$1" lights_accepted_per_pixel/glossy)" '
+    { count[$1] = $2 }
+    END {
+      split(size, side, "x"); split(peak, rate, ","); pixels = side[1] * side[2]; kinds = lobes == "all" ? 2 : 1
+      operations = pixels * (tests * count["sphere_test"] + ld * count["diffuse_listed"] + ad * count["diffuse_accepted"] +
+                             lg * count["glossy_listed"] + ag * count["glossy_accepted"])
+      bytes = pixels * (count["bytes_per_pixel"] + kinds * count["bytes_per_pixel_and_kind"])
+      if (lobes != "glossy") bytes += vpls * count["diffuse_bytes_per_light"]
+      if (lobes != "diffuse") bytes += vpls * count["glossy_bytes_per_light"]
+      printf "%.3g %.3g", operations / 1e9, bytes / 1e6
+      if (peak != "") printf " %.3g %.3g", operations / rate[1] / 1e9, bytes / rate[2] / 1e9
+    }' "$work/operations"
+}
+
+row() {
+  local shot=$1 count=$2 lobes=$3 error cpu=$store/$1-$2-$3-$size.json shading ranges numbers
+  cpu_picture "$shot" "$count" "$lobes"
+  error=$(check "$shot" "$count" "$lobes")
+  render "$shot" --vpls "$count" --lobes "$lobes" "${engine[@]}" --accumulate "$((frames + 5))" -o "$work/mean.exr" \
+    --statistics "$work/times.json"
+  ranges=$(value "$work/times.json" passes_ms/light_range)
+  shading=$(value "$work/times.json" passes_ms/culling_and_shading)
+  read -ra numbers <<< "$(floors "$work/times.json" "$count" "$lobes")"
+  printf '| %s | %s | %s | %.2f | %.2f | %.2f | %s | %.3f | %.3f | %.2f |' "$shot" "$count" "$lobes" \
+    "$(value "$work/times.json" culling_tests_per_pixel/total)" "$(value "$work/times.json" lights_listed_per_pixel/total)" \
+    "$(value "$work/times.json" lights_accepted_per_pixel/total)" "$error" "$ranges" "$shading" \
+    "$(awk -v a="$(value "$cpu" passes_ms/culling)" -v b="$(value "$cpu" passes_ms/shading)" -v v="$shading" \
+      'BEGIN { print (a + b) / v }')"
+  printf ' %s |' "${numbers[@]}"
+  printf '\n'
+}
+
+table() {
+  local shot count lobes floor_titles='' floor_lines=''
+  if [[ -n $peak ]]; then
+    floor_titles=' operations at peak [ms] | bytes at peak [ms] |'
+    floor_lines=' ---: | ---: |'
+  fi
+  printf '\n| shot | VPLs | lobes | tests | listed | accepted | relMSE to the CPU | ranges [ms] | culling + shading [ms] | '
+  printf 'CPU engine, times as long | operations [10^9] | bytes [10^6] |%s\n' "$floor_titles"
+  printf '| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |%s\n' "$floor_lines"
+  for shot in "${shots[@]}"; do
+    for count in ${vpls//,/ }; do
+      for lobes in diffuse glossy all; do row "$shot" "$count" "$lobes"; done
+    done
+  done
+}
+
+table > "$work/table"
+chip=$(value "$work/times.json" device | tr -d '"')
+folder=docs/results/$(tr '[:upper:]' '[:lower:]' <<< "${chip%% (*}" | tr -cs '[:alnum:]\n' '_' | sed 's/_*$//')
+mkdir -p "$folder"
+{
+  printf '# Culling and shading on %s\n\nRemake: `benchmarks/gpu.sh --size %s --vpls %s --frames %s' "$chip" "$size" "$vpls" "$frames"
+  [[ -n $peak ]] && printf ' --peak %s' "$peak"
+  printf '`.\n\n'
+  cat << 'TEXT'
+Medians by timestamps of the device over the frames, after five that do not count. Tests (light against tile), listed and
+accepted pairs are means per pixel. The CPU engine's time is that of one frame on the same machine's processor. Operations
+and bytes are the least that the frame asks for: what each test, listed and accepted pair computes
+(`benchmarks/operations_benchmark.cpp`; a multiply-add is two, a division or root four), each pixel and light read once
+and each sum written once.
+TEXT
+  cat "$work/table"
+} > "$work/page.md"
+mv "$work/page.md" "$folder/culling_and_shading.md"
+echo "$folder/culling_and_shading.md"
