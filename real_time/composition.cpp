@@ -56,6 +56,14 @@ Colours normal_layer(const GeometryBuffer& geometry) {
   return out;
 }
 
+// Frames that the light of each pixel is the mean of, 0 for the sky.
+std::vector<float> history_layer(const CompositionInputs& in) {
+  if (!in.history.empty()) return values_of(in.history);
+  std::vector<float> out(in.geometry.pixel_count());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = in.geometry.depth[i] == kNoSurface ? 0.0f : 1.0f;
+  return out;
+}
+
 using LayerWriter = std::function<void(const CompositionInputs&, const std::string& name, Image&)>;
 
 // Every layer by name; a new one is one entry here.
@@ -86,6 +94,8 @@ const std::vector<std::pair<std::string, LayerWriter>>& layer_table() {
                     Image& image) { image.set_colours(name, normal_layer(in.geometry)); }},
       {"depth", [](const CompositionInputs& in, const std::string& name,
                    Image& image) { image.set_values(name, values_of(in.geometry.depth)); }},
+      {"history", [](const CompositionInputs& in, const std::string& name,
+                     Image& image) { image.set_values(name, history_layer(in)); }},
       {"lights_listed", [](const CompositionInputs& in, const std::string& name,
                            Image& image) { image.set_values(name, values_of(in.counts.lights_listed)); }},
       {"lights_false", [](const CompositionInputs& in, const std::string& name,

@@ -18,6 +18,7 @@ struct CompositionInputs {
   const Radiance& many;      // direct light of the many, likewise; its planes are empty without any
   const ShadedRadiance& shaded;
   const ShadingOutputs& counts;
+  const Plane& history;          // frames in each pixel's mean; empty: one
   const Prediction& prediction;  // planes are empty unless asked for
 };
 

@@ -2,7 +2,7 @@
 # The room real_time/filtering: noisy light -> clean light. Included by real_time/CMakeLists.txt.
 set(filtering ${CMAKE_CURRENT_LIST_DIR}/filtering)
 luciole_room(real_time_filtering
-  SOURCES ${filtering}/bilateral_filter.cpp
+  SOURCES ${filtering}/bilateral_filter.cpp ${filtering}/temporal_accumulation.cpp
   LINK luciole_base)
 luciole_isa_sources(luciole_real_time_filtering ${filtering}/gather_tile.cpp)
 luciole_isa_sources(luciole_real_time_filtering ${filtering}/filter_tile.cpp)

@@ -9,6 +9,7 @@
 #include "real_time/composition.h"
 #include "real_time/direct_light/direct_light.h"
 #include "real_time/filtering/bilateral_filter.h"
+#include "real_time/filtering/temporal_accumulation.h"
 #include "real_time/geometry_buffer/geometry_buffer_pass.h"
 #include "real_time/light_range/clamped_range.h"
 #include "real_time/light_range/light_range.h"
@@ -131,6 +132,7 @@ struct Renderer::State {
   std::optional<View> cached;
   std::optional<ReflectiveShadowMaps> maps;  // kept, as the order of their texels takes a while to find
   std::optional<float> clamped;              // xi of Ranges::clamped for this view
+  TemporalAccumulationPass accumulation;
   BilateralFilterPass filter_indirect, filter_many;
 };
 
@@ -301,11 +303,19 @@ Result<Frame> Renderer::render(std::uint64_t frame_index, const std::vector<std:
   if (view == nullptr) return stopped;
   const View& seen = *view;
   Prediction prediction;
-  const Result<ShadingOutputs> lit = state_->shade_lights(seen, frame_index, layers, frame, prediction);
+  Result<ShadingOutputs> lit = state_->shade_lights(seen, frame_index, layers, frame, prediction);
   if (stop_requested()) return stopped;
   if (!lit) return lit.error();
-  const ShadingOutputs& shaded = *lit;
+  ShadingOutputs& shaded = *lit;
   PassTimer timer(frame.statistics);
+  std::uint64_t& bad = frame.statistics.pixels_not_finite;
+  bad = std::max(count_not_finite(shaded.radiance.indirect), count_not_finite(shaded.radiance.from_many));
+  const bool accumulated = state_->settings.temporal > 1;
+  if (accumulated) {
+    state_->accumulation.run({seen.geometry, seen.number, state_->settings.temporal}, shaded.radiance.indirect,
+                             shaded.radiance.from_many);
+    timer.end("temporal_accumulation");
+  }
   const bool filtered = state_->settings.filter == Filter::bilateral;
   const Radiance& noisy = shaded.radiance.indirect;
   const BilateralFilterPass::Inputs common{seen.geometry, noisy, filter_radius(state_->settings.interleave),
@@ -314,9 +324,8 @@ Result<Frame> Renderer::render(std::uint64_t frame_index, const std::vector<std:
   const Radiance& indirect = filtered ? state_->filter_indirect.run(common) : noisy;
   const Radiance& many = filtered ? state_->filter_many.run(for_many) : shaded.radiance.from_many;
   timer.end("filtering");
-  std::uint64_t& bad = frame.statistics.pixels_not_finite;
-  bad = std::max(count_not_finite(noisy), count_not_finite(shaded.radiance.from_many));
-  compose({seen.geometry, seen.direct, indirect, many, shaded.radiance, shaded, prediction}, layers, frame);
+  const Plane& history = state_->accumulation.frames();
+  compose({seen.geometry, seen.direct, indirect, many, shaded.radiance, shaded, history, prediction}, layers, frame);
   bad = std::max(bad, blacken_not_finite(frame.picture));
   timer.end("composition");
   for (const auto& [pass, ms] : frame.statistics.passes_ms) frame.statistics.frame_ms += ms;

@@ -50,11 +50,12 @@ struct Frame {
   FrameStatistics statistics;
 };
 
-// Scene and lights are fixed; frames differ by their index (new ranges, offsets, and samples with jitter) and camera.
+// Scene and lights are fixed; with temporal accumulation, frames go on from the one that was rendered before. Frames differ by their index (new ranges, offsets, and samples with jitter) and camera.
 class Renderer {
  public:
   // Names of the layers that `render` can give: direct, indirect, indirect_from_diffuse, indirect_from_glossy,
-  // unfiltered, albedo, normal, depth, lights_listed, lights_false; and, slow, as every light is evaluated at every
+  // unfiltered, albedo, normal, depth, history (frames that temporal accumulation averages), lights_listed,
+  // lights_false; and, slow, as every light is evaluated at every
   // pixel, what the noisy light of one frame must be on average and how much it may scatter: reference,
   // predicted_variance, predicted_accepted (of all lights that go through culling).
   static const std::vector<std::string>& layer_names();

@@ -63,6 +63,7 @@ struct Settings {
   float exposure = 1.0f;  // E: display value per radiance
   bool stratified_ranges = false;  // random numbers stratified over the lights: steadier; independent ones else
   bool direct_shadows = false;     // one shadow ray per accepted punctual or emissive light
+  std::uint32_t temporal = 1;      // frames that a pixel's light is averaged over, following the camera; 1: none
   bool jitter = false;             // camera samples and VPLs move per frame
   std::uint64_t seed = 1;          // moves ranges and interleaving only
   std::uint64_t vpl_seed = 0;      // 0: VPLs at texel centres; else jittered within the texel

@@ -136,6 +136,8 @@ TEST_F(CommandLine, misuse_is_refused_with_one_sentence_and_exit_code_2) {
   EXPECT_REFUSED(2, small_render({"-o", "out/a.exr", "--camera", "left"}));
   EXPECT_REFUSED(2, small_render({"-o", "out/a.exr", "--camera", "0,0,0/0,0,0/60"}));
   EXPECT_REFUSED(2, small_render({"-o", "out/a.exr", "--accumulate", "0"}));
+  EXPECT_REFUSED(2, small_render({"-o", "out/a.exr", "--accumulate", "4", "--temporal", "4"}));
+  EXPECT_REFUSED(2, small_render({"-o", "out/a.exr", "--temporal", "0"}));
   EXPECT_REFUSED(2, {"render", "recipe:cornell?colour=3", "-o", "out/a.exr"});
   EXPECT_REFUSED(2, {"render", "recipe:castle", "-o", "out/a.exr"});
   EXPECT_REFUSED(2, {"make", "ring", "alpha", "-o", "out/a.glb"});

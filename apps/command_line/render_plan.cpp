@@ -18,11 +18,13 @@ namespace {
 // Roughly what a frame holds besides the scene, which is not read yet. Measured in cornell and Sponza up to 3840x2160
 // and 1,048,576 lights: 160 bytes per pixel, 340 to 480 per light, 12 per pixel and layer.
 Status check_frame_memory(const Settings& settings, const RenderOptions& options) {
-  constexpr double kBytesPerPixel = 180, kBytesPerLayer = 16, kBytesPerVpl = 420;
+  constexpr double kBytesPerPixel = 180, kBytesPerLayer = 16, kBytesPerVpl = 420, kBytesOfHistory = 190;
   const double pixels = double(settings.width) * settings.height;
   const double accumulated = options.accumulate > 1 ? double(options.layers.size() + 2) * 24 : 0;
-  const double bytes = pixels * (kBytesPerPixel + kBytesPerLayer * double(options.layers.size()) + accumulated) +
-                       kBytesPerVpl * settings.vpls;
+  const double history = settings.temporal > 1 ? kBytesOfHistory : 0;
+  const double bytes =
+      pixels * (kBytesPerPixel + history + kBytesPerLayer * double(options.layers.size()) + accumulated) +
+      kBytesPerVpl * settings.vpls;
   return check_memory(bytes, fmt::format("--size {}x{} with {} VPLs", settings.width, settings.height, settings.vpls));
 }
 
@@ -57,6 +59,9 @@ Status read_settings(const RenderOptions& options, RenderPlan& plan) {
   Result<Settings> settings = settings_from(listed->frame, options.settings);
   if (!settings) return settings.error();
   plan.settings = *settings;
+  if (options.accumulate > 1 && plan.settings.temporal > 1) {
+    return Error{ErrorKind::usage, "--accumulate and --temporal both average over frames: give one of them"};
+  }
   if (Status able = Renderer::check(plan.settings); !able) return able;
   return check_frame_memory(plan.settings, options);
 }
