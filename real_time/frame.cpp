@@ -115,6 +115,12 @@ struct Renderer::State {
   State(RayScene scene, const Camera& camera_, PrimaryLights primaries_, const Settings& settings_)
       : rays(std::move(scene)), camera(camera_), primaries(std::move(primaries_)), settings(settings_) {}
 
+  // Whatever was kept of the scene and of the view.
+  void forget() {
+    cached.reset();
+    maps.reset();
+    clamped.reset();
+  }
   const View* view(std::uint64_t frame_index);  // none after Ctrl-C
   bool render_view(std::uint64_t frame_index, View& made);
   float constant_xi(const View& seen, const ManyLights& many_lights);
@@ -339,6 +345,18 @@ void Renderer::set_camera(const Camera& camera) {
   state_->cached.reset();
   state_->clamped.reset();
 }
+
+Status Renderer::set_scene(std::shared_ptr<const Scene> scene, PrimaryLights primaries) {
+  const auto start = std::chrono::steady_clock::now();
+  Result<RayScene> rays = RayScene::create(std::move(scene), {.isa = to_string(state_->settings.isa)});
+  if (!rays) return rays.error();
+  state_->rays = std::move(*rays);
+  state_->primaries = std::move(primaries);
+  state_->bvh_build_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  state_->forget();
+  return Done{};
+}
+
 const Settings& Renderer::settings() const { return state_->settings; }
 double Renderer::bvh_build_ms() const { return state_->bvh_build_ms; }
 

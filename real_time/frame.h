@@ -27,6 +27,7 @@ struct FrameStatistics {
   std::vector<std::string> notes;                         // what the user should know of this frame, a sentence each
   std::vector<std::pair<std::string, double>> passes_ms;  // in the order of the frame
   double frame_ms = 0;                                    // without loading and BVH building
+  double scene_ms = 0;  // moving the scene and building its BVH anew, before the frame; not part of frame_ms
   std::uint64_t virtual_point_lights = 0, many_lights = 0;
   PerPixel tests;  // made by culling (LightCounts)
   // listed: in the list of the pixel's depth half or cluster; splatting: lights whose splat covers the pixel
@@ -50,7 +51,8 @@ struct Frame {
   FrameStatistics statistics;
 };
 
-// Scene and lights are fixed; with temporal accumulation, frames go on from the one that was rendered before. Frames differ by their index (new ranges, offsets, and samples with jitter) and camera.
+// Frames differ by their index (new ranges, offsets, and samples with jitter), and by what was set before them. With
+// temporal accumulation a frame goes on from the one that was rendered before.
 class Renderer {
  public:
   // Names of the layers that `render` can give: direct, indirect, indirect_from_diffuse, indirect_from_glossy,
@@ -69,6 +71,8 @@ class Renderer {
 
   // Of the frames from now on. What was kept of the last view is made anew where this one is another.
   void set_camera(const Camera& camera);
+  // The same for what is lit and what lights it: rays are traced in this scene from now on.
+  Status set_scene(std::shared_ptr<const Scene> scene, PrimaryLights primaries);
   const Settings& settings() const;  // instruction set, engine and device as chosen
   double bvh_build_ms() const;
 

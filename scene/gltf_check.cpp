@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/gltf_check.h"
 
-#include <algorithm>
-#include <initializer_list>
 #include <optional>
 #include <string>
 
 #include "scene/decode_image.h"
 #include "scene/file_fault.h"
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_animation.h"
 #include "scene/gltf_lights_cameras.h"
 #include "scene/gltf_materials.h"
 #include "scene/gltf_primitives.h"
@@ -81,14 +80,6 @@ void check_images_and_textures(Document& document) {
   }
 }
 
-std::string required_text(const JsonObject& object, const char* property, std::initializer_list<const char*> allowed) {
-  const std::string value = object.text(property);
-  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
-    fail("VALUE_NOT_IN_LIST", object.label(), std::string("property \"") + property + "\" has an unknown value");
-  }
-  return value;
-}
-
 void check_skins(Document& document) {
   for (std::size_t i = 0; i < document.count(kSkins); ++i) {
     const JsonObject skin = document.element(kSkins, i);
@@ -103,44 +94,6 @@ void check_skins(Document& document) {
     }
     if (shape.count < joints)
       fail("INVALID_IBM_ACCESSOR_COUNT", skin.label(), shape.label + " has fewer matrices than joints");
-  }
-}
-
-// What a channel moves has so many numbers per key; 0: as many as there are morph targets.
-std::uint32_t components_of(const std::string& path) {
-  if (path == "rotation") return 4;
-  return path == "weights" || path == "pointer" ? 0 : 3;
-}
-
-void check_channel(Document& document, const JsonObject& channel, const std::vector<JsonObject>& samplers) {
-  const JsonObject& sampler = samplers[channel.required_reference("sampler", samplers.size())];
-  const std::optional<JsonObject> target = channel.object("target");
-  if (!target) fail("UNDEFINED_PROPERTY", channel.label(), "property \"target\" is missing");
-  target->reference("node", document.count(kNodes));
-  const std::string path = required_text(*target, "path", {"translation", "rotation", "scale", "weights", "pointer"});
-  const std::uint32_t components = components_of(path);
-  const AccessorShape output =
-      accessor_shape(document, sampler.required_reference("output", document.count(kAccessors)));
-  if (components != 0 && output.components != components) {
-    fail("ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT", channel.label(), output.label + " does not fit " + path);
-  }
-}
-
-void check_animations(Document& document) {
-  for (std::size_t i = 0; i < document.count(kAnimations); ++i) {
-    const JsonObject animation = document.element(kAnimations, i);
-    const std::vector<JsonObject> samplers = animation.objects("samplers", "sampler");
-    for (const JsonObject& sampler : samplers) {
-      const std::size_t input = sampler.required_reference("input", document.count(kAccessors));
-      const AccessorShape times = accessor_shape(document, input);
-      if (times.components != 1 || times.component_type != ComponentType::float32) {
-        fail("ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT", sampler.label(), times.label + " does not hold times");
-      }
-      sampler.required_reference("output", document.count(kAccessors));
-      if (sampler.has("interpolation")) required_text(sampler, "interpolation", {"LINEAR", "STEP", "CUBICSPLINE"});
-    }
-    for (const JsonObject& channel : animation.objects("channels", "channel"))
-      check_channel(document, channel, samplers);
   }
 }
 
@@ -172,7 +125,6 @@ void check_the_rest(Document& document, const std::map<std::size_t, std::vector<
   for (std::size_t i = 0; i < document.count(kCameras); ++i) read_camera(document, i);
   for (std::size_t i = 0; i < light_count(document); ++i) read_light(document, i);
   check_skins(document);
-  check_animations(document);
 }
 
 }  // namespace luciole::gltf

@@ -49,6 +49,23 @@ const Json* light_array(const Document& document) {
 
 }  // namespace
 
+void place_light(PunctualLight& light, const Affine& world_from_node, const std::string& object) {
+  check_place(world_from_node, object);
+  light.position = world_from_node.translation;
+  light.direction =
+      direction_of(-world_from_node.z, {0, 0, -1});  // lights and cameras look along -Z; scale does not count
+}
+
+void place_camera(Camera& camera, const Affine& world_from_node, const std::string& object) {
+  check_place(world_from_node, object);
+  camera.eye = world_from_node.translation;
+  camera.forward = direction_of(-world_from_node.z, {0, 0, -1});
+  // Orthonormal whatever scale or shear the nodes have.
+  const Vec3 up = world_from_node.y - camera.forward * dot(world_from_node.y, camera.forward);
+  camera.up = direction_of(up, look_at({0, 0, 0}, camera.forward, 1).up);
+  camera.right = cross(camera.forward, camera.up);
+}
+
 std::size_t light_count(const Document& document) {
   const Json* lights = light_array(document);
   return lights == nullptr ? 0 : lights->size();
@@ -77,12 +94,9 @@ void read_light_of(Document& document, const JsonObject& node, const Affine& wor
   const std::optional<JsonObject> use = node.extension("KHR_lights_punctual");
   if (!use) return;
   const std::size_t index = use->required_reference("light", light_count(document));
-  check_place(world_from_node, node.label());
   PunctualLight light = read_light(document, index);
   if (light.name.empty()) light.name = node.text("name");
-  light.position = world_from_node.translation;
-  light.direction =
-      direction_of(-world_from_node.z, {0, 0, -1});  // lights and cameras look along -Z; scale does not count
+  place_light(light, world_from_node, node.label());
   scene.lights.push_back(std::move(light));
 }
 
@@ -112,14 +126,8 @@ void read_camera_of(Document& document, const JsonObject& node, const Affine& wo
   if (!index) return;
   std::optional<Camera> camera = read_camera(document, *index);
   if (!camera) return;
-  check_place(world_from_node, node.label());
   if (camera->name.empty()) camera->name = node.text("name");
-  camera->eye = world_from_node.translation;
-  camera->forward = direction_of(-world_from_node.z, {0, 0, -1});
-  // Orthonormal whatever scale or shear the nodes have.
-  const Vec3 up = world_from_node.y - camera->forward * dot(world_from_node.y, camera->forward);
-  camera->up = direction_of(up, look_at({0, 0, 0}, camera->forward, 1).up);
-  camera->right = cross(camera->forward, camera->up);
+  place_camera(*camera, world_from_node, node.label());
   scene.cameras.push_back(std::move(*camera));
 }
 

@@ -117,17 +117,18 @@ Affine affine_from_parts(Vec3 translation, Vec4 rotation, Vec3 scale, const std:
   return result;
 }
 
-void for_each_node(const Document& document, const std::function<void(std::size_t, const Affine&)>& visit) {
+void for_each_node(const Document& document, const std::function<void(const NodeVisit&)>& visit) {
   const Children children = read_children(document);
   check_no_loops(document, children);
   const std::vector<bool> has_parent = check_single_parents(document, children);
   struct Pending {
     std::size_t node, depth;
+    std::optional<std::size_t> parent;
     Affine world_from_parent;
   };
   std::vector<Pending> stack;
   const std::vector<std::size_t> roots = root_nodes(document, has_parent);
-  for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, 1, Affine{}});
+  for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, 1, std::nullopt, Affine{}});
   while (!stack.empty()) {
     const Pending pending = stack.back();
     stack.pop_back();
@@ -135,11 +136,11 @@ void for_each_node(const Document& document, const std::function<void(std::size_
     if (pending.depth > kDeepestNode) {
       fail("VALUE_NOT_IN_RANGE", node.label(), "lies deeper than " + std::to_string(kDeepestNode) + " levels");
     }
-    const Affine world_from_node = pending.world_from_parent * parent_from_node(node);
-    visit(pending.node, world_from_node);
+    const Affine local = parent_from_node(node), world_from_node = pending.world_from_parent * local;
+    visit({pending.node, pending.parent, pending.world_from_parent, local, world_from_node});
     const std::vector<std::size_t>& siblings = children[pending.node];
     for (auto child = siblings.rbegin(); child != siblings.rend(); ++child) {
-      stack.push_back({*child, pending.depth + 1, world_from_node});
+      stack.push_back({*child, pending.depth + 1, pending.node, world_from_node});
     }
   }
 }

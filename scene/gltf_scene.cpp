@@ -7,6 +7,7 @@
 
 #include "scene/file_fault.h"
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_animation.h"
 #include "scene/gltf_check.h"
 #include "scene/gltf_lights_cameras.h"
 #include "scene/gltf_materials.h"
@@ -50,13 +51,11 @@ std::vector<Affine> read_instances(Document& document, const JsonObject& node) {
 class SceneReader {
  public:
   SceneReader(std::span<const std::uint8_t> file, bool must_be_glb, FileReader files, const LoadLimits& limits)
-      : document_(file, must_be_glb, std::move(files), limits), textures_(document_) {}
+      : document_(file, must_be_glb, std::move(files), limits), textures_(document_), motion_(document_) {}
 
   Scene read() {
-    for_each_node(document_, [this](std::size_t node, const Affine& world_from_node) { visit(node, world_from_node); });
-    if (document_.count(kAnimations) > 0) {
-      document_.warn("animations", "Animations are ignored: the scene keeps its resting pose.");
-    }
+    for_each_node(document_, [this](const NodeVisit& node) { visit(node); });
+    scene_.animation = motion_.take();
     check_the_rest(document_, meshes_);
     meshes_.clear();
     if (scene_.materials.empty()) scene_.materials.push_back(default_material());
@@ -66,25 +65,43 @@ class SceneReader {
   }
 
  private:
-  void visit(std::size_t index, const Affine& world_from_node) {
-    const JsonObject node = document_.element(kNodes, index);
-    read_light_of(document_, node, world_from_node, scene_);
-    read_camera_of(document_, node, world_from_node, scene_);
+  void visit(const NodeVisit& visited) {
+    const JsonObject node = document_.element(kNodes, visited.node);
+    const std::optional<std::uint32_t> moving = motion_.visit(visited);
+    const std::size_t lights = scene_.lights.size(), cameras = scene_.cameras.size();
+    read_light_of(document_, node, visited.world_from_node, scene_);
+    read_camera_of(document_, node, visited.world_from_node, scene_);
+    if (moving && scene_.lights.size() > lights) motion_.add(MovingLight{static_cast<std::uint32_t>(lights), *moving});
+    if (moving && scene_.cameras.size() > cameras) {
+      motion_.add(MovingCamera{static_cast<std::uint32_t>(cameras), *moving});
+    }
     const std::optional<std::size_t> mesh = node.reference("mesh", document_.count(kMeshes));
     if (!mesh) return;
     if (node.has("skin")) document_.warn("skins", "Skins are ignored: meshes keep their bind pose.");
-    if (!node.extension("EXT_mesh_gpu_instancing")) return place(*mesh, world_from_node, node);
+    if (!node.extension("EXT_mesh_gpu_instancing")) {
+      return place({*mesh, visited.world_from_node, Affine{}, moving}, node);
+    }
     for (const Affine& node_from_instance : read_instances(document_, node)) {
-      place(*mesh, world_from_node * node_from_instance, node);
+      place({*mesh, visited.world_from_node, node_from_instance, moving}, node);
     }
   }
 
-  void place(std::size_t index, const Affine& world_from_mesh, const JsonObject& node) {
-    for (const Mesh& primitive : mesh(index)) {
+  struct Placement {
+    std::size_t mesh;
+    Affine world_from_node, node_from_mesh;
+    std::optional<std::uint32_t> moving;
+  };
+
+  void place(const Placement& where, const JsonObject& node) {
+    for (const Mesh& primitive : mesh(where.mesh)) {
       document_.charge_vertices(primitive.positions.size() + primitive.indices.size(), node.label());
       Mesh placed = primitive;
       if (placed.name.empty()) placed.name = node.text("name");
-      transform_mesh(placed, world_from_mesh, node.label());
+      if (where.moving) {
+        motion_.add(
+            MovingMesh{static_cast<std::uint32_t>(scene_.meshes.size()), *where.moving, where.node_from_mesh, placed});
+      }
+      transform_mesh(placed, where.world_from_node * where.node_from_mesh, node.label());
       scene_.meshes.push_back(std::move(placed));
     }
   }
@@ -122,6 +139,7 @@ class SceneReader {
 
   Document document_;
   TextureReader textures_;
+  MotionReader motion_;
   Scene scene_;
   std::map<std::size_t, std::vector<Mesh>> meshes_;
   std::map<std::uint32_t, std::uint32_t> materials_;  // the document's number to the scene's

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "image/output_file.h"
+#include "scene/gltf_animation_writer.h"
 #include "scene/gltf_writer_parts.h"
 
 namespace luciole {
@@ -93,15 +94,21 @@ Json primitive_json(const Mesh& mesh, BufferWriter& buffer) {
           {"material", mesh.material}};
 }
 
-void add_meshes(Writing& out) {
+// Returns the document's number of each mesh; of an empty one, that of the next.
+std::vector<std::size_t> add_meshes(Writing& out) {
   gltf::UniqueNames names;
-  for (const Mesh& mesh : out.scene.meshes) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < out.scene.meshes.size(); ++i) {
+    const Mesh& mesh = out.scene.meshes[i];
+    numbers.push_back(out.document.contains("meshes") ? out.document["meshes"].size() : 0);
     if (mesh.indices.empty()) continue;  // glTF has no empty accessors
     const std::string name = names.give(mesh.name, "mesh");
-    append_to(out.document, "meshes",
-              {{"name", name}, {"primitives", Json::array({primitive_json(mesh, out.buffer)})}});
-    add_node(out, {{"name", name}, {"mesh", out.document["meshes"].size() - 1}});
+    const MovingMesh* moving = gltf::moving_mesh(out.scene, i);
+    const Json primitive = primitive_json(moving ? moving->at_rest : mesh, out.buffer);
+    append_to(out.document, "meshes", {{"name", name}, {"primitives", Json::array({primitive})}});
+    if (!moving) add_node(out, {{"name", name}, {"mesh", numbers.back()}});
   }
+  return numbers;
 }
 
 void add_lights(Writing& out) {
@@ -117,8 +124,8 @@ void add_lights(Writing& out) {
       node["translation"] = {light.position.x, light.position.y, light.position.z};
     }
     if (light.kind != PunctualLight::Kind::point) node["rotation"] = gltf::rotation_towards(light.direction);
+    if (!gltf::is_moving_light(out.scene, list.size())) add_node(out, std::move(node));
     list.push_back(std::move(json));
-    add_node(out, std::move(node));
   }
   out.document["extensions"]["KHR_lights_punctual"]["lights"] = std::move(list);
   out.extensions.insert("KHR_lights_punctual");
@@ -131,8 +138,10 @@ void add_cameras(Writing& out) {
     append_to(
         out.document, "cameras",
         {{"name", name}, {"type", "perspective"}, {"perspective", {{"yfov", camera.vertical_fov}, {"znear", 0.01}}}});
+    const std::size_t number = out.document["cameras"].size() - 1;
+    if (gltf::is_moving_camera(out.scene, number)) continue;
     add_node(out, {{"name", name},
-                   {"camera", out.document["cameras"].size() - 1},
+                   {"camera", number},
                    {"translation", {camera.eye.x, camera.eye.y, camera.eye.z}},
                    {"rotation", gltf::rotation_json(camera.right, camera.up, -camera.forward)}});
   }
@@ -144,9 +153,10 @@ Status build(Writing& out) {
   out.document["scenes"] = Json::array({Json{{"name", out.scene.name.empty() ? "scene" : out.scene.name}}});
   if (const Status images = add_images(out); !images) return images;
   add_materials(out);
-  add_meshes(out);
+  const std::vector<std::size_t> meshes = add_meshes(out);
   add_lights(out);
   add_cameras(out);
+  gltf::add_animation(out.scene, meshes, out.buffer, out.document);
   if (!out.extensions.empty()) out.document["extensionsUsed"] = out.extensions;
   if (out.buffer.bytes().empty()) return Done{};
   out.document["bufferViews"] = out.buffer.views();

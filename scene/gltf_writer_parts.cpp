@@ -116,6 +116,16 @@ std::size_t BufferWriter::add_vectors(const std::vector<Vec4>& values) {
                       "VEC4");
 }
 
+std::size_t BufferWriter::add_track(const std::vector<float>& values, std::size_t components) {
+  const std::size_t index =
+      add_accessor(add_view(values.data(), values.size() * sizeof(float), Target::none), kFloat,
+                   values.size() / components, components == 1 ? "SCALAR" : (components == 3 ? "VEC3" : "VEC4"));
+  if (components > 1) return index;
+  accessors_[index]["min"] = numbers({values.front()});
+  accessors_[index]["max"] = numbers({values.back()});
+  return index;
+}
+
 std::size_t BufferWriter::add_indices(const std::vector<std::uint32_t>& indices) {
   return add_accessor(add_view(indices.data(), indices.size() * sizeof(std::uint32_t), Target::indices), kUnsignedInt,
                       indices.size(), "SCALAR");

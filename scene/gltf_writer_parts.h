@@ -25,6 +25,8 @@ class BufferWriter {
   std::size_t add_vectors(const std::vector<Vec2>& values);
   std::size_t add_vectors(const std::vector<Vec3>& values, bool with_bounds);
   std::size_t add_vectors(const std::vector<Vec4>& values);
+  // Numbers of an animation, so many per key; of one, times, which the format wants with their bounds.
+  std::size_t add_track(const std::vector<float>& values, std::size_t components);
   std::size_t add_indices(const std::vector<std::uint32_t>& indices);
 
   const Bytes& bytes() const { return bytes_; }

@@ -119,6 +119,8 @@ struct Bounds {
   float diagonal() const { return length(high - low); }
 };
 
+struct Animation;  // scene/animation.h
+
 struct Scene {
   std::string name;
   std::vector<Mesh> meshes;
@@ -127,7 +129,8 @@ struct Scene {
   std::vector<PunctualLight> lights;
   std::vector<Camera> cameras;
   Environment environment;
-  std::vector<std::string> warnings;  // one sentence each, once each
+  std::shared_ptr<const Animation> animation;  // what moves, and how; none: nothing
+  std::vector<std::string> warnings;           // one sentence each, once each
 
   std::uint64_t triangle_count() const;
   Bounds bounds() const;

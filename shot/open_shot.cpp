@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/animation.h"
 #include "scene/default_lights.h"
 #include "scene/framing_camera.h"
 #include "scene/load_scene.h"
@@ -33,10 +34,14 @@ bool is_repeated(const PunctualLight& a, const PunctualLight& b) {
 }  // namespace
 
 void remove_repeated_lights(Scene& scene, const std::vector<PunctualLight>& primary) {
-  std::erase_if(scene.lights, [&primary](const PunctualLight& light) {
-    return std::any_of(primary.begin(), primary.end(),
-                       [&light](const PunctualLight& listed) { return is_repeated(listed, light); });
-  });
+  std::vector<bool> kept;
+  for (const PunctualLight& light : scene.lights) {
+    kept.push_back(std::none_of(primary.begin(), primary.end(),
+                                [&light](const PunctualLight& listed) { return is_repeated(listed, light); }));
+  }
+  if (scene.animation) scene.animation = with_lights_kept(*scene.animation, kept);
+  std::size_t index = 0;
+  std::erase_if(scene.lights, [&](const PunctualLight&) { return !kept[index++]; });
 }
 
 void scale_scene(Scene& scene, float metres_per_unit) {
@@ -46,6 +51,10 @@ void scale_scene(Scene& scene, float metres_per_unit) {
   }
   for (PunctualLight& light : scene.lights) light.position = light.position * metres_per_unit;
   for (Camera& camera : scene.cameras) camera.eye = camera.eye * metres_per_unit;
+  if (!scene.animation) return;
+  auto scaled = std::make_shared<Animation>(*scene.animation);
+  scaled->metres_per_unit *= metres_per_unit;
+  scene.animation = std::move(scaled);
 }
 
 bool matches_pattern(std::string_view text, std::string_view pattern) {
@@ -100,6 +109,7 @@ Result<OpenedShot> open_shot(const Shot& shot, const SearchFolders& folders) {
   opened.scene = std::move(*loaded);
   opened.primary = shot.primary;
   Scene& scene = opened.scene;
+  if (Status posed = pose_scene(scene, 0); !posed) return posed.error();
   if (scene.triangle_count() == 0) return Error{ErrorKind::bad_scene, shot.scene + ": the scene has no triangle"};
   if (shot.environment) scene.environment = Environment{*shot.environment, 0, 0, {}};
   remove_repeated_lights(scene, shot.primary);
@@ -111,6 +121,7 @@ Result<OpenedShot> open_shot(const Shot& shot, const SearchFolders& folders) {
     opened.camera = *shot.camera;
   } else if (!scene.cameras.empty()) {
     opened.camera = scene.cameras.front();
+    opened.scene_camera = 0;
   } else {
     opened.camera = framing_camera(scene);
     opened.notes.push_back("The scene has no camera: it gets one that frames it.");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loads what a shot names and makes it ready to render: in metres, with its materials replaced, seen and lit.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,11 @@
 namespace luciole {
 
 struct OpenedShot {
-  Scene scene;  // world space, metres; at least one triangle
+  Scene scene;  // world space, metres; at least one triangle; at time 0 of its animation
   Camera camera;
-  std::vector<PunctualLight> primary;  // as the shot lists them; empty: to be chosen among scene.lights
-  std::vector<std::string> notes;      // one sentence per default that was filled in
+  std::optional<std::size_t> scene_camera;  // where `camera` is one of the scene's, and moves with it: which
+  std::vector<PunctualLight> primary;       // as the shot lists them; empty: to be chosen among scene.lights
+  std::vector<std::string> notes;           // one sentence per default that was filled in
 };
 
 // The scene that a shot names: in metres, with its materials replaced; it may lack triangles, lights and cameras.

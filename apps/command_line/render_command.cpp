@@ -9,6 +9,7 @@
 
 #include "apps/command_line/accumulator.h"
 #include "apps/command_line/commands.h"
+#include "apps/command_line/motion.h"
 #include "apps/command_line/path_run.h"
 #include "apps/command_line/progress.h"
 #include "apps/command_line/render_plan.h"
@@ -45,13 +46,13 @@ void add_metadata(Image& image, const RenderPlan& plan, const RenderOptions& opt
 class Run {
  public:
   Run(const RenderOptions& options, RenderPlan plan)
-      : options_(options),
-        plan_(std::move(plan)),
-        progress_(verbosity_of(options)),
-        moves_(plan_.shot.camera_path && options.camera.empty()) {}
+      : options_(options), plan_(std::move(plan)), progress_(verbosity_of(options)) {}
 
   Result<int> operator()() {
-    Result<Renderer> renderer = prepare();
+    Result<Motion> motion = prepare();
+    if (!motion) return stopped_or(motion.error());
+    progress_.step("building the acceleration structure");
+    Result<Renderer> renderer = motion->create_renderer(plan_.settings);
     if (!renderer) return stopped_or(renderer.error());
     statistics_.bvh_ms = renderer->bvh_build_ms();
     if (plan_.video) {
@@ -60,8 +61,9 @@ class Run {
       video_.emplace(std::move(*video));
     }
     for (std::uint64_t index = plan_.frames.first; index <= plan_.frames.last && !stop_requested(); ++index) {
-      if (moves_) renderer->set_camera(camera_at(*plan_.shot.camera_path, double(index), plan_.shot.frames_per_second));
-      if (Status status = render_one(*renderer, index); !status) return stopped_or(status.error());
+      const Result<double> scene_ms = motion->move_to(index, *renderer);
+      if (!scene_ms) return stopped_or(scene_ms.error());
+      if (Status status = render_one(*renderer, index, *scene_ms); !status) return stopped_or(status.error());
     }
     // Interrupted, the video has the frames that are complete; without any there is none.
     if (video_ && pictures_ > 0) {
@@ -78,23 +80,22 @@ class Run {
   }
 
  private:
-  Result<Renderer> prepare() {
+  Result<Motion> prepare() {
     progress_.step("loading " + options_.shot);
     const Clock::time_point start = Clock::now();
     Result<OpenedShot> opened = open_stage(plan_.shot, plan_.folders, options_.environment, options_.camera);
     if (!opened) return opened.error();
-    if (opened->primary.empty()) opened->primary = strongest_as_primary(opened->scene);
     statistics_.load_ms = ms_since(start);
     tell(*opened);
-    progress_.step("building the acceleration structure");
-    return Renderer::create(std::make_shared<const Scene>(std::move(opened->scene)), opened->camera, opened->primary,
-                            plan_.settings);
+    std::optional<CameraPath> path = options_.camera.empty() ? plan_.shot.camera_path : std::nullopt;
+    return Motion(std::move(*opened), std::move(path), plan_.shot.frames_per_second);
   }
 
   void tell(const OpenedShot& opened) {
     statistics_.shot = options_.shot;
-    statistics_.primary_lights = opened.primary.size();
-    for (const auto& sentences : {opened.notes, opened.scene.warnings, left_out(opened.scene, opened.primary)}) {
+    const PrimaryLights primary = opened.primary.empty() ? strongest_as_primary(opened.scene) : opened.primary;
+    statistics_.primary_lights = primary.size();
+    for (const auto& sentences : {opened.notes, opened.scene.warnings, left_out(opened.scene, primary)}) {
       for (const std::string& sentence : sentences) {
         progress_.note(sentence);
         statistics_.notes.push_back(sentence);
@@ -103,7 +104,7 @@ class Run {
   }
 
   // One picture: a frame, or the mean of several. Interrupted, it is the mean of the complete ones, or nothing.
-  Status render_one(Renderer& renderer, std::uint64_t index) {
+  Status render_one(Renderer& renderer, std::uint64_t index, double scene_ms) {
     FrameAccumulator sum;
     Image picture;
     std::uint32_t complete = 0;
@@ -113,6 +114,7 @@ class Run {
       Result<Frame> frame = renderer.render(index * options_.accumulate + complete, plan_.layers);
       if (stop_requested()) break;  // the frame may have holes
       if (!frame) return frame.error();
+      if (complete == 0) frame->statistics.scene_ms = scene_ms;
       tell(frame->statistics);
       frame->layers.set_colours("", frame->picture);
       statistics_.frames.emplace_back(index * options_.accumulate + complete, frame->statistics);
@@ -162,7 +164,6 @@ class Run {
   const RenderOptions& options_;
   RenderPlan plan_;
   Progress progress_;
-  bool moves_;  // along the shot's path
   RunStatistics statistics_;
   std::optional<VideoWriter> video_;
   std::uint64_t pictures_ = 0, complete_frames_ = 0;

@@ -73,18 +73,25 @@ Result<OpenedShot> open_stage(const Shot& shot, const SearchFolders& folders, co
     Result<Camera> chosen = choose_camera(opened->scene, camera);
     if (!chosen) return chosen.error();
     opened->camera = *chosen;
+    opened->scene_camera = scene_camera_named(opened->scene, camera);
   }
   return opened;
 }
 
-Result<Camera> choose_camera(const Scene& scene, const std::string& text) {
-  std::vector<std::string> names;
-  for (const Camera& camera : scene.cameras) {
-    if (camera.name == text) return camera;
-    names.push_back(std::to_string(names.size()) + (camera.name.empty() ? "" : " '" + camera.name + "'"));
+std::optional<std::size_t> scene_camera_named(const Scene& scene, const std::string& text) {
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    if (scene.cameras[i].name == text) return i;
   }
   const std::optional<std::size_t> index = parse<std::size_t>(text);
-  if (index && *index < scene.cameras.size()) return scene.cameras[*index];
+  return index && *index < scene.cameras.size() ? index : std::nullopt;
+}
+
+Result<Camera> choose_camera(const Scene& scene, const std::string& text) {
+  if (const std::optional<std::size_t> index = scene_camera_named(scene, text)) return scene.cameras[*index];
+  std::vector<std::string> names;
+  for (const Camera& camera : scene.cameras) {
+    names.push_back(std::to_string(names.size()) + (camera.name.empty() ? "" : " '" + camera.name + "'"));
+  }
   if (const std::optional<Camera> camera = parse_camera(text)) return *camera;
   return Error{ErrorKind::usage,
                "--camera must be x,y,z/x,y,z/degrees (eye, target, vertical field of view)" +

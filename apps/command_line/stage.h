@@ -2,6 +2,7 @@
 // Between a shot and the renderer: which camera, which lights are primary, which sky.
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ Result<OpenedShot> open_stage(const Shot& shot, const SearchFolders& folders, co
 // A camera of the scene by name or index (from 0), or "eye/target/degrees" with "x,y,z" in metres and the vertical
 // field of view; "/degrees" may be left out.
 Result<Camera> choose_camera(const Scene& scene, const std::string& text);
+
+// Which one is meant by name or index; none: "eye/target/degrees", or nothing that is known.
+std::optional<std::size_t> scene_camera_named(const Scene& scene, const std::string& text);
 
 // The four lights of most power: those that get virtual point lights and shadows when the shot lists no primary lights.
 PrimaryLights strongest_as_primary(const Scene& scene);

@@ -27,6 +27,7 @@ Json frame_figures(const FrameStatistics& frame) {
   figures["engine"] = frame.engine;
   for (const auto& [pass, ms] : frame.passes_ms) figures["passes_ms"][pass] = ms;
   figures["frame_ms"] = frame.frame_ms;
+  if (frame.scene_ms > 0) figures["scene_ms"] = frame.scene_ms;
   figures["lights"] = frame.virtual_point_lights + frame.many_lights;
   figures["virtual_point_lights"] = frame.virtual_point_lights;
   figures["many_lights"] = frame.many_lights;

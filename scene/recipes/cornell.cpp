@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The classic box in the proportions of the measured one, two metres wide: white floor, ceiling and back, a red and a
 // green side, a short and a tall block. A spot under the ceiling shines downwards as a ceiling panel would.
+#include "scene/recipes/cornell_motion.h"
 #include "scene/recipes/metals.h"
 #include "scene/recipes/recipe_list.h"
 #include "scene/recipes/scene_kit.h"
@@ -24,20 +25,24 @@ void add_room(Scene& scene) {
   add_mesh(scene, "right", green, rectangle({h, 0, -h}, {0, 0, kSide}, {0, kSide, 0}));
 }
 
-void add_blocks(Scene& scene, float glossy) {
+// Returns the short block's number.
+std::uint32_t add_blocks(Scene& scene, float glossy, bool moves) {
   const auto block = add_material(scene, matte_material("block", kWhite));
   const auto tall = glossy > 0 ? add_material(scene, metal_material("tall block", metal::kCopper, glossy)) : block;
   constexpr float kBevel = 0.004f;
-  add_mesh(scene, "short block", block,
-           placed(rounded_box({0.6f, 0.6f, 0.6f}, kBevel), translate({0.33f, 0.3f, 0.36f}) * rotate_y(radians(-17))));
+  const Affine where = moves ? Affine{} : translate({0.33f, 0.3f, 0.36f}) * rotate_y(radians(-17));
+  const auto number = static_cast<std::uint32_t>(scene.meshes.size());
+  add_mesh(scene, "short block", block, placed(rounded_box({0.6f, 0.6f, 0.6f}, kBevel), where));
   add_mesh(scene, "tall block", tall,
            placed(rounded_box({0.6f, 1.2f, 0.6f}, kBevel), translate({-0.34f, 0.6f, -0.28f}) * rotate_y(radians(19))));
+  return number;
 }
 
 Scene make_cornell(const Values& values) {
   Scene scene;
   add_room(scene);
-  add_blocks(scene, static_cast<float>(values.at("glossy")));
+  const bool moves = values.at("motion") > 0;
+  const std::uint32_t block = add_blocks(scene, static_cast<float>(values.at("glossy")), moves);
   const float panel = static_cast<float>(values.at("panel"));
   if (panel > 0) {
     Material glow = matte_material("panel", {0.78f, 0.78f, 0.78f});
@@ -48,6 +53,7 @@ Scene make_cornell(const Values& values) {
   const Vec3 under_ceiling{0, kSide - 0.02f, 0};
   scene.lights.push_back(spot_light("ceiling spot", {under_ceiling, {0, 0, 0}}, {4, 3.6f, 3}, 60, 88));
   scene.cameras.push_back(named_camera("front", {{0, 1, 3.9f}, {0, 1, 0}}, 39));
+  if (moves) set_in_motion(scene, block);
   return scene;
 }
 
@@ -57,7 +63,9 @@ Recipe cornell_recipe() {
   return {{"cornell",
            "the classic box with two blocks under one spot",
            {{"glossy", "GGX alpha of the tall block, which then is copper; 0: matte", 0, 0, 1},
-            {"panel", "radiance of an emissive ceiling panel [W/(m^2 sr)]; 0: none", 0, 0, 1e6}}},
+            {"panel", "radiance of an emissive ceiling panel [W/(m^2 sr)]; 0: none", 0, 0, 1e6},
+            {"motion", "1: the short block turns, the spot swings and a second camera comes nearer, for 8 s", 0, 0, 1,
+             true}}},
           make_cornell};
 }
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "scene/animation.h"
 #include "scene/load_scene.h"
 #include "scene/mip_pyramid.h"
 #include "scene/recipes/recipes.h"
@@ -252,6 +253,44 @@ TEST(GltfWriter, failures_are_one_sentence_and_leave_no_file) {
   EXPECT_FALSE(fs::exists(scratch("bad.glb")));
   for (const auto& entry : fs::directory_iterator(scratch("").parent_path())) {
     EXPECT_EQ(entry.path().string().find(".partial"), std::string::npos) << entry.path();
+  }
+}
+
+const Mesh& mesh_named(const Scene& scene, const std::string& name) {
+  for (const Mesh& mesh : scene.meshes) {
+    if (mesh.name == name) return mesh;
+  }
+  ADD_FAILURE() << name;
+  return scene.meshes.front();
+}
+
+TEST(GltfWriter, motion_comes_back) {
+  Scene scene = *make_recipe("cornell", {{"motion", "1"}});
+  const fs::path path = scratch("motion.glb");
+  ASSERT_TRUE(write_gltf(scene, path).has_value());
+  Result<Scene> read = load_scene(path);
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  EXPECT_TRUE(read->warnings.empty());
+  ASSERT_NE(read->animation, nullptr);
+  EXPECT_EQ(read->animation->duration(), scene.animation->duration());
+  const auto near = [](Vec3 a, Vec3 b) { return length(a - b) <= 1e-5f; };  // some roundings of metres
+  Vec3 last{0, 0, 0};
+  for (const double time : {0.0, 1.3, 4.0, 7.9}) {
+    ASSERT_TRUE(pose_scene(scene, time).has_value());
+    ASSERT_TRUE(pose_scene(*read, time).has_value());
+    for (const Mesh& mesh : scene.meshes) {
+      const Mesh& same = mesh_named(*read, mesh.name);
+      ASSERT_EQ(same.positions.size(), mesh.positions.size());
+      for (std::size_t i = 0; i < mesh.positions.size(); ++i) ASSERT_TRUE(near(same.positions[i], mesh.positions[i]));
+    }
+    ASSERT_EQ(read->lights.size(), 1u);
+    EXPECT_TRUE(near(read->lights[0].position, scene.lights[0].position));
+    EXPECT_TRUE(near(read->lights[0].direction, scene.lights[0].direction));
+    ASSERT_EQ(read->cameras.size(), 2u);
+    EXPECT_TRUE(near(read->cameras[1].eye, scene.cameras[1].eye));
+    const Vec3 corner = mesh_named(*read, "short block").positions[0];
+    EXPECT_FALSE(near(corner, last));  // else nothing has moved
+    last = corner;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "scene/animation.h"
 #include "scene/describe.h"
 #include "scene/load_scene.h"
 #include "scene/surface.h"
@@ -33,6 +34,9 @@ inline void use(const Result<Scene>& loaded) {
     }
   }
   if (scene.triangle_count() < 1000) describe(scene);
+  if (!scene.animation || scene.triangle_count() > 1000) return;
+  Scene moved = scene;
+  for (const double time : {0.0, 0.4, double(scene.animation->duration())}) (void)pose_scene(moved, time);
 }
 
 }  // namespace luciole::fuzz
