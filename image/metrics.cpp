@@ -29,15 +29,17 @@ double ratio(double numerator, double denominator, double equal) {
 }
 
 // All but FLIP.
-MappedComparison compare_linear(const std::vector<Vec3>& picture, const std::vector<Vec3>& reference) {
+MappedComparison compare_linear(const std::vector<Vec3>& picture, const std::vector<Vec3>& reference, float exposure) {
   const double reference_mean = mean_of(reference);
   const double count = 3.0 * static_cast<double>(reference.size());
   MappedComparison result;
-  double squares = 0, relative_squares = 0;
+  double squares = 0, relative_squares = 0, displayed_squares = 0;
+  const auto displayed = [exposure](double value) { return std::clamp(value * exposure, 0.0, 1.0); };
   // Gives the relative square of one value.
   const auto add = [&](double x, double r) {
     const double difference = x - r;
     squares += difference * difference;
+    displayed_squares += (displayed(x) - displayed(r)) * (displayed(x) - displayed(r));
     result.figures.largest_difference = std::max(result.figures.largest_difference, std::abs(difference));
     return ratio(difference * difference, r * r + 0.01 * reference_mean * reference_mean, 0);
   };
@@ -50,6 +52,7 @@ MappedComparison compare_linear(const std::vector<Vec3>& picture, const std::vec
     result.maps.relative_error.push_back(static_cast<float>(std::sqrt((red + green + blue) / 3)));
   }
   result.figures.rmse = std::sqrt(squares / count);
+  result.figures.display_rmse = std::sqrt(displayed_squares / count);
   result.figures.relmse = relative_squares / count;
   result.figures.mean_ratio = ratio(mean_of(picture), reference_mean, 1);
   return result;
@@ -75,7 +78,7 @@ Result<MappedComparison> compare_with_maps(const Image& picture, const Image& re
     if (Status status = check_comparable(*image); !status) return status.error();
   }
   const std::vector<Vec3> x = picture.colours(""), r = reference.colours("");
-  MappedComparison result = compare_linear(x, r);
+  MappedComparison result = compare_linear(x, r, settings.exposure);
   const auto displayed = [&](const std::vector<Vec3>& pixels) {
     return to_display(pixels, settings.exposure, settings.tone_curve);
   };

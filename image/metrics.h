@@ -11,14 +11,17 @@
 namespace luciole {
 
 struct Comparison {
-  double rmse = 0;                // sqrt(mean((x - r)^2))
+  double rmse = 0;  // sqrt(mean((x - r)^2))
+  // sqrt(mean((x' - r')^2)), v' = min(max(E v, 0), 1): as seen on a display without a tone curve, where a white spot is
+  // white however bright it is. [0,1]
+  double display_rmse = 0;
   double relmse = 0;              // mean((x - r)^2 / (r^2 + 0.01 mean(r)^2)); infinite against a black reference
   double flip = 0;                // mean of flip_map over both pictures as they would be displayed, [0,1]
   double largest_difference = 0;  // max |x - r|
   double mean_ratio = 1;          // mean(x) / mean(r); infinite against a black reference
 };
 
-// Only FLIP depends on how the pictures are displayed; the other figures are of the linear values.
+// Only FLIP and display_rmse depend on how the pictures are displayed; the other figures are of the linear values.
 struct ComparisonSettings {
   float exposure = 1;  // E, multiplies both pictures
   ToneCurve tone_curve = ToneCurve::pbr_neutral;

@@ -24,6 +24,10 @@ TEST(Compare, agrees_with_figures_worked_out_by_hand) {
   const auto result = compare(other, reference);
   ASSERT_TRUE(result.has_value());
   EXPECT_NEAR(result->rmse, std::sqrt(1.25 / 6), 1e-12);
+  EXPECT_NEAR(result->display_rmse, 0, 1e-12);  // white on white, and black on black
+  ComparisonSettings dark;
+  dark.exposure = 0.25f;  // .375 against .25, .75 against 1
+  EXPECT_NEAR(compare(other, reference, dark)->display_rmse, std::sqrt((0.125 * 0.125 + 0.25 * 0.25) / 6), 1e-12);
   EXPECT_NEAR(result->relmse, (0.25 / 1.04 + 1 / 16.04) / 6, 1e-12);
   EXPECT_NEAR(result->largest_difference, 1, 1e-12);
   EXPECT_NEAR(result->mean_ratio, 11.5 / 12, 1e-12);

@@ -65,7 +65,7 @@ def verdict(claim):
 
 
 def claim_row(claim):
-    paper = range_text(*claim["paper"]) if claim["paper"] else "–"
+    paper = range_text(claim["paper"][0], claim["paper"][-1]) if claim["paper"] else "–"
     return (f"| {escaped(claim['text'])} | {limit_text(claim)} | {range_text(claim['low'], claim['high'])} | {paper} | "
             f"{escaped(verdict(claim))} |")
 

@@ -165,8 +165,8 @@ def compare_job(folder, name, pair, exposure, sources=None):
 class Measured:
     """What was measured for one combination."""
 
-    def __init__(self, folder, name, runs, missing="", reference=""):
-        self.folder, self.name, self.runs, self.missing, self.reference = folder, name, runs, missing, reference
+    def __init__(self, folder, name, runs, missing=""):
+        self.folder, self.name, self.runs, self.missing = folder, name, runs, missing
 
     def files(self):
         return [f"{self.name}.json"] + [f"{self.name}.run{i}.json" for i in range(2, self.runs + 1)]
@@ -179,14 +179,14 @@ class Measured:
         return self.figures()[0]["settings"]["exposure"]
 
     def value(self, metric):
-        """Median over the runs of a figure, or a sum of figures: "passes_ms/culling + passes_ms/shading"."""
-        return sum(self.one_value(part.strip()) for part in metric.split(" + "))
+        """Median over the runs of a figure, a sum of figures or a quotient of such: "frame_ms / passes_ms/shading"."""
+        above, _, below = metric.partition(" / ")
+        values = [sum(self.one_value(part.strip()) for part in side.split(" + ")) for side in (above, below) if side]
+        return values[0] / values[1] if below else values[0]
 
     def one_value(self, metric):
-        if metric == "display_rmse":  # white is 1
-            return self.one_value("compare/rmse") * self.exposure()
-        if metric in ("change", "flicker"):
-            return sequence_value(self.folder, self.name, self.reference, metric) * self.exposure()
+        if metric == "flicker":
+            return flicker_of(self.folder, self.name)
         if metric.startswith("compare/"):
             sources = [json.loads(self.folder.file(f"{self.name}.compare.json").read_text(encoding="utf-8"))]
             metric = metric.removeprefix("compare/")
@@ -210,10 +210,6 @@ def frame_range(options):
     return range(int(first), int(last) + 1)
 
 
-def sequence_reference(recipe):
-    return "reference of frames" if recipe.sequence else ""
-
-
 def measure_sequence(bench, folder, name, shot, options):
     """Frames along the shot's path, and the difference of each from the one before."""
     frames, stem = frame_range(options), slug(f"{name}.frames")
@@ -221,24 +217,20 @@ def measure_sequence(bench, folder, name, shot, options):
     job.outputs = [("-o", f"{stem}-####.exr"), ("--statistics", f"{stem}.json")]
     job.shown, job.frames = job.shown.replace(f"{stem}.exr", f"{stem}-####.exr"), frames
     bench.do(folder, job)
+    shown = json.loads(folder.file(f"{stem}.json").read_text(encoding="utf-8"))["settings"]["exposure"]
     for frame in frames[1:]:
         pair = (f"{stem}-{frame:04}", f"{stem}-{frame - 1:04}")
-        bench.do(folder, compare_job(folder, f"{pair[0]}.change", pair, 1, (stem,)))
+        bench.do(folder, compare_job(folder, f"{pair[0]}.change", pair, shown, (stem,)))
 
 
-def sequence_value(folder, name, reference, metric):
-    """change: root mean square of the difference between frames. flicker: what of it is not the scene's own, which the
-    reference shows: errors that know nothing of the scene's changes add to them in squares."""
-    def mean_square(own):
-        entry = folder.done(slug(f"{own}.frames"))
-        if not entry:
-            raise MeasureError(f"{own}: no frames were measured")
-        pictures = [file.removesuffix(".exr") for file in entry["files"] if file.endswith(".exr")]
-        changes = [json.loads(folder.file(f"{name}.change.json").read_text(encoding="utf-8")) for name in pictures[1:]]
-        return statistics.mean(change["rmse"] ** 2 for change in changes)
-    if metric == "change":
-        return mean_square(name) ** 0.5
-    return max(mean_square(name) - mean_square(reference), 0.0) ** 0.5
+def flicker_of(folder, name):
+    """Mean FLIP between consecutive frames, [0,1]. (Root mean squares tell of the one brightest speckle.)"""
+    entry = folder.done(slug(f"{name}.frames"))
+    if not entry:
+        raise MeasureError(f"{name}: no frames were measured")
+    pictures = [file.removesuffix(".exr") for file in entry["files"] if file.endswith(".exr")]
+    changes = [json.loads(folder.file(f"{name}.change.json").read_text(encoding="utf-8")) for name in pictures[1:]]
+    return statistics.mean(change["flip"] for change in changes)
 
 
 def reference_name(recipe, combination):
@@ -260,7 +252,7 @@ def measure(bench, recipe, quick):
     for combination in recipe.combinations(quick):
         name = combination_name(combination)
         missing = missing_scene(recipe.shot_of(combination, quick))
-        results[name] = Measured(folder, name, runs, missing, sequence_reference(recipe))
+        results[name] = Measured(folder, name, runs, missing)
         if not missing:
             present.append((name, combination))
     for run in range(1, runs + 1):
@@ -280,8 +272,6 @@ def measure(bench, recipe, quick):
         if recipe.sequence:
             sequence, path = recipe.sequence_options(quick), recipe.sequence.get("shot", shot)
             measure_sequence(bench, folder, name, path, options | sequence)
-            measure_sequence(bench, folder, sequence_reference(recipe), path,
-                             recipe.options_of({}, quick) | sequence | recipe.sequence_reference(quick))
         if recipe.maps and matches(combination, recipe.maps.get("where", {})):
             bench.do(folder, render_job(folder, f"{name}.maps", shot, options, "lights_listed,lights_false"))
     folder.file("discarded.exr").unlink(missing_ok=True)

@@ -45,7 +45,7 @@ class Recipe:
     axes: dict = field(default_factory=dict)  # name -> list of Value, in the order of the file
     reference: dict = field(default_factory=dict)  # options; per, where, common: see README.md
     maps: dict = field(default_factory=dict)  # where: of which measurements the lights per pixel are drawn
-    sequence: dict = field(default_factory=dict)  # shot, options, reference: of frames in a row, see README.md
+    sequence: dict = field(default_factory=dict)  # shot, options: of frames in a row, see README.md
     tables: list = field(default_factory=list)
     plots: list = field(default_factory=list)
     claims: list = field(default_factory=list)
@@ -88,9 +88,6 @@ class Recipe:
 
     def sequence_options(self, quick):
         return self.sequence["options"] | (self.sequence.get("quick_options", {}) if quick else {})
-
-    def sequence_reference(self, quick):
-        return self.sequence["reference"] | (self.sequence.get("quick_reference", {}) if quick else {})
 
     def is_compared(self, combination):
         return bool(self.reference) and matches(combination, self.reference.get("where", {}))

@@ -85,6 +85,7 @@ Result<int> run_compare(const CompareOptions& options) {
   const Comparison& figures = compared->figures;
   nlohmann::ordered_json object;
   object["rmse"] = finite_or_null(figures.rmse);
+  object["display_rmse"] = finite_or_null(figures.display_rmse);
   object["relmse"] = finite_or_null(figures.relmse);
   object["flip"] = finite_or_null(figures.flip);
   object["largest_difference"] = finite_or_null(figures.largest_difference);
@@ -105,7 +106,7 @@ void add_compare_command(CLI::App& program, Command& chosen) {
   command->footer(kExamples);
   command->add_option("PICTURE", options->picture, "OpenEXR file")->required();
   command->add_option("REFERENCE", options->reference, "OpenEXR file of the same size")->required();
-  command->add_option("--exposure", options->exposure, "display value per radiance, for FLIP only")
+  command->add_option("--exposure", options->exposure, "display value per radiance, for FLIP and display_rmse")
       ->check(CLI::PositiveNumber);
   command->add_option("--error-map", options->error_map, "FILE.png: relative error per pixel in false colour");
   command->add_option("--flip-map", options->flip_map, "FILE.png: FLIP per pixel in false colour");
