@@ -74,13 +74,15 @@ floors() {
     { count[$1] = $2 }
     END {
       split(size, side, "x"); split(peak, rate, ","); pixels = side[1] * side[2]; kinds = lobes == "all" ? 2 : 1
-      operations = pixels * (tests * count["sphere_test"] + ld * count["diffuse_listed"] + ad * count["diffuse_accepted"] +
-                             lg * count["glossy_listed"] + ag * count["glossy_accepted"])
+      per_pixel = tests * count["sphere_test"] + ld * count["diffuse_listed"] + ad * count["diffuse_accepted"]
+      per_pixel += lg * count["glossy_listed"] + ag * count["glossy_accepted"]
+      operations = pixels * per_pixel
       bytes = pixels * (count["bytes_per_pixel"] + kinds * count["bytes_per_pixel_and_kind"])
       if (lobes != "glossy") bytes += vpls * count["diffuse_bytes_per_light"]
       if (lobes != "diffuse") bytes += vpls * count["glossy_bytes_per_light"]
       printf "%.3g %.3g", operations / 1e9, bytes / 1e6
       if (peak != "") printf " %.3g %.3g", operations / rate[1] / 1e9, bytes / rate[2] / 1e9
+      printf "\n"
     }' "$work/operations"
 }
 
@@ -92,7 +94,8 @@ row() {
     --statistics "$work/times.json"
   ranges=$(value "$work/times.json" passes_ms/light_range)
   shading=$(value "$work/times.json" passes_ms/culling_and_shading)
-  read -ra numbers <<< "$(floors "$work/times.json" "$count" "$lobes")"
+  floors "$work/times.json" "$count" "$lobes" > "$work/floors"
+  read -ra numbers < "$work/floors"
   printf '| %s | %s | %s | %.2f | %.2f | %.2f | %s | %.3f | %.3f | %.2f |' "$shot" "$count" "$lobes" \
     "$(value "$work/times.json" culling_tests_per_pixel/total)" "$(value "$work/times.json" lights_listed_per_pixel/total)" \
     "$(value "$work/times.json" lights_accepted_per_pixel/total)" "$error" "$ranges" "$shading" \
