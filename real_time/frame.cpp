@@ -13,6 +13,7 @@
 #include "real_time/geometry_buffer/geometry_buffer_pass.h"
 #include "real_time/light_range/clamped_range.h"
 #include "real_time/light_range/light_range.h"
+#include "real_time/light_statistics.h"
 #include "real_time/many_lights/many_lights.h"
 #include "real_time/not_finite.h"
 #include "real_time/shading/prediction.h"
@@ -45,40 +46,6 @@ bool wants(const std::vector<std::string>& layers, const std::string& name) {
 
 bool wants_prediction(const std::vector<std::string>& layers) {
   return wants(layers, "reference") || wants(layers, "predicted_variance") || wants(layers, "predicted_accepted");
-}
-
-void count_lights(const ShadingOutputs& shaded, FrameStatistics& statistics) {
-  const double pixels = std::max<double>(1.0, static_cast<double>(shaded.pixels));
-  const auto per_pixel = [&](auto count) {
-    return PerPixel{count(shaded.diffuse) / pixels, count(shaded.glossy) / pixels, count(shaded.many) / pixels};
-  };
-  statistics.tests = per_pixel([](const LightCounts& c) { return static_cast<double>(c.tests); });
-  statistics.listed = per_pixel([](const LightCounts& c) { return static_cast<double>(c.listed); });
-  statistics.accepted = per_pixel([](const LightCounts& c) { return static_cast<double>(c.accepted); });
-  statistics.false_positives =
-      per_pixel([](const LightCounts& c) { return static_cast<double>(c.listed - c.accepted); });
-  statistics.evaluated = per_pixel([](const LightCounts& c) { return static_cast<double>(c.evaluated); });
-  std::vector<std::uint32_t> lengths = shaded.list_lengths;
-  if (lengths.empty()) return;
-  double sum = 0;
-  for (std::uint32_t length : lengths) sum += length;
-  const auto p99 = lengths.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(lengths.size() - 1));
-  std::nth_element(lengths.begin(), p99, lengths.end());
-  statistics.list_length_p99 = *p99;
-  statistics.list_length_mean = sum / static_cast<double>(lengths.size());
-  statistics.list_length_max = *std::max_element(lengths.begin(), lengths.end());
-}
-
-double listed_pairs(const ShadingOutputs& shaded) {
-  return static_cast<double>(shaded.diffuse.listed + shaded.glossy.listed + shaded.many.listed);
-}
-
-// The wall time of culling and shading, split by what the threads spent on each.
-void time_shading(const ShadingOutputs& shaded, double wall_ms, FrameStatistics& statistics) {
-  const double busy = std::max(shaded.culling_seconds + shaded.shading_seconds, 1e-9);
-  statistics.passes_ms.emplace_back("culling", wall_ms * shaded.culling_seconds / busy);
-  statistics.passes_ms.emplace_back("shading", wall_ms * shaded.shading_seconds / busy);
-  statistics.evaluations_per_second = listed_pairs(shaded) / std::max(wall_ms * 1e-3, 1e-9);
 }
 
 ShadingOutputs shade_on_cpu(const ShadingInputs& inputs, FrameStatistics& statistics) {
