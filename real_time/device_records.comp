@@ -5,6 +5,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#include "real_time/filtering/filter_records.h"
 #include "real_time/light_range/emitters.h"
 #include "real_time/light_range/range_records.h"
 #include "real_time/shading/shading_records.h"
@@ -19,6 +20,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Records {
   ManyLightRecord many_lights[2];
   RangeFrame range_frames[2];
   RangePush range_pushes[1];
+  FilterPush filter_pushes[1];
+  PixelLight pixel_lights[2];
+  FilterCounts filter_counts[2];
   PixelRecord pixels[2];
   PixelSums pixel_sums[2];
   TileCounts tile_counts[2];

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "gpu/shader_code.h"
+#include "real_time/filtering/filter_records.h"
 #include "real_time/light_range/emitters.h"
 #include "real_time/light_range/range_records.h"
 #include "real_time/shading/shading_records.h"
@@ -147,6 +148,23 @@ const Expected kMembers[] = {
     LUCIOLE_MEMBER(RangePush, emitters),
     LUCIOLE_MEMBER(RangePush, bounds),
     LUCIOLE_MEMBER(RangePush, count),
+    LUCIOLE_MEMBER(FilterPush, pixels),
+    LUCIOLE_MEMBER(FilterPush, sums),
+    LUCIOLE_MEMBER(FilterPush, more_sums),
+    LUCIOLE_MEMBER(FilterPush, filtered),
+    LUCIOLE_MEMBER(FilterPush, counts),
+    LUCIOLE_MEMBER(FilterPush, right),
+    LUCIOLE_MEMBER(FilterPush, up),
+    LUCIOLE_MEMBER(FilterPush, forward),
+    LUCIOLE_MEMBER(FilterPush, footprint),
+    LUCIOLE_MEMBER(FilterPush, left_edge),
+    LUCIOLE_MEMBER(FilterPush, top_edge),
+    LUCIOLE_MEMBER(FilterPush, weight),
+    LUCIOLE_MEMBER(FilterPush, width),
+    LUCIOLE_MEMBER(FilterPush, height),
+    LUCIOLE_MEMBER(PixelLight, diffuse),
+    LUCIOLE_MEMBER(PixelLight, specular),
+    LUCIOLE_MEMBER(FilterCounts, not_finite),
     LUCIOLE_MEMBER(PixelRecord, position),
     LUCIOLE_MEMBER(PixelRecord, depth),
     LUCIOLE_MEMBER(PixelRecord, normal),
@@ -194,6 +212,9 @@ const Array kArrays[] = {{"diffuse_emitters", 2 * sizeof(DiffuseEmitter)},
                          {"many_lights", 2 * sizeof(ManyLightRecord)},
                          {"range_frames", 2 * sizeof(RangeFrame)},
                          {"range_pushes", sizeof(RangePush)},
+                         {"filter_pushes", sizeof(FilterPush)},
+                         {"pixel_lights", 2 * sizeof(PixelLight)},
+                         {"filter_counts", 2 * sizeof(FilterCounts)},
                          {"pixels", 2 * sizeof(PixelRecord)},
                          {"pixel_sums", 2 * sizeof(PixelSums)},
                          {"tile_counts", 2 * sizeof(TileCounts)},

@@ -92,8 +92,10 @@ struct Renderer::State {
   bool render_view(std::uint64_t frame_index, View& made);
   float constant_xi(const View& seen, const ManyLights& many_lights);
   Result<ShadingOutputs> shade_lights(const View& seen, std::uint64_t frame_index,
-                                      const std::vector<std::string>& layers, Frame& frame, Prediction& prediction);
-  Result<std::optional<ShadingOutputs>> shade_on_device(const VulkanFrame& wanted, FrameStatistics& statistics);
+                                      const std::vector<std::string>& layers, Frame& frame, Prediction& prediction,
+                                      std::optional<FilteredLight>& filtered);
+  Result<std::optional<ShadingOutputs>> shade_on_device(const VulkanFrame& wanted, FrameStatistics& statistics,
+                                                        std::optional<FilteredLight>& filtered);
 
   RayScene rays;
   Camera camera;
@@ -181,7 +183,8 @@ float Renderer::State::constant_xi(const View& seen, const ManyLights& many_ligh
 
 // None where the device is gone for good: from then on this is the CPU engine.
 Result<std::optional<ShadingOutputs>> Renderer::State::shade_on_device(const VulkanFrame& wanted,
-                                                                       FrameStatistics& statistics) {
+                                                                       FrameStatistics& statistics,
+                                                                       std::optional<FilteredLight>& filtered) {
   Result<std::optional<VulkanShaded>> shaded = vulkan->shade(wanted, statistics.notes);
   if (!shaded) return shaded.error();
   if (!*shaded) {
@@ -196,12 +199,13 @@ Result<std::optional<ShadingOutputs>> Renderer::State::shade_on_device(const Vul
     if (pass == "culling_and_shading") shading_ms = ms;
   }
   statistics.evaluations_per_second = listed_pairs((*shaded)->shaded) / std::max(shading_ms * 1e-3, 1e-9);
+  filtered = std::move((*shaded)->filtered);
   return std::optional<ShadingOutputs>(std::move((*shaded)->shaded));
 }
 
 Result<ShadingOutputs> Renderer::State::shade_lights(const View& seen, std::uint64_t frame_index,
                                                      const std::vector<std::string>& layers, Frame& frame,
-                                                     Prediction& prediction) {
+                                                     Prediction& prediction, std::optional<FilteredLight>& filtered) {
   frame.statistics.passes_ms = seen.passes_ms;
   PassTimer timer(frame.statistics);
   const ManyLights many_lights = make_many_lights(rays.scene(), primaries, settings, frame_index);
@@ -215,8 +219,10 @@ Result<ShadingOutputs> Renderer::State::shade_lights(const View& seen, std::uint
   const bool lobes_apart = wants(layers, "indirect_from_diffuse") || wants(layers, "indirect_from_glossy");
   std::optional<ShadingOutputs> shaded;
   if (vulkan) {
-    auto on_device = shade_on_device(
-        {seen.number, seen.geometry, seen.vpls, many_lights, range, shift, count, lobes_apart}, frame.statistics);
+    const bool filter = settings.temporal <= 1;  // else the noisy light is accumulated first
+    auto on_device = shade_on_device({seen.number, seen.geometry, seen.vpls, many_lights, range, shift, count,
+                                      lobes_apart, filter, /*noisy_too=*/wants(layers, "unfiltered")},
+                                     frame.statistics, filtered);
     if (!on_device) return on_device.error();
     shaded = std::move(*on_device);
   }
@@ -276,27 +282,31 @@ Result<Frame> Renderer::render(std::uint64_t frame_index, const std::vector<std:
   if (view == nullptr) return stopped;
   const View& seen = *view;
   Prediction prediction;
-  Result<ShadingOutputs> lit = state_->shade_lights(seen, frame_index, layers, frame, prediction);
+  std::optional<FilteredLight> on_device;  // what needs no filter here
+  Result<ShadingOutputs> lit = state_->shade_lights(seen, frame_index, layers, frame, prediction, on_device);
   if (stop_requested()) return stopped;
   if (!lit) return lit.error();
   ShadingOutputs& shaded = *lit;
   PassTimer timer(frame.statistics);
   std::uint64_t& bad = frame.statistics.pixels_not_finite;
   bad = std::max(count_not_finite(shaded.radiance.indirect), count_not_finite(shaded.radiance.from_many));
+  if (on_device) bad = std::max(bad, on_device->not_finite);
   const bool accumulated = state_->settings.temporal > 1;
   if (accumulated) {
     state_->accumulation.run({seen.geometry, seen.number, state_->settings.temporal}, shaded.radiance.indirect,
                              shaded.radiance.from_many);
     timer.end("temporal_accumulation");
   }
-  const bool filtered = state_->settings.filter == Filter::bilateral;
+  const bool filtered = state_->settings.filter == Filter::bilateral && !on_device;
   const Radiance& noisy = shaded.radiance.indirect;
   const BilateralFilterPass::Inputs common{seen.geometry, noisy, filter_radius(state_->settings.interleave),
                                            state_->settings.isa};
   BilateralFilterPass::Inputs for_many{seen.geometry, shaded.radiance.from_many, common.radius, common.isa};
-  const Radiance& indirect = filtered ? state_->filter_indirect.run(common) : noisy;
-  const Radiance& many = filtered ? state_->filter_many.run(for_many) : shaded.radiance.from_many;
-  timer.end("filtering");
+  const Radiance& indirect = filtered ? state_->filter_indirect.run(common) : on_device ? on_device->indirect : noisy;
+  const Radiance& many = filtered    ? state_->filter_many.run(for_many)
+                         : on_device ? on_device->from_many
+                                     : shaded.radiance.from_many;
+  if (!on_device) timer.end("filtering");
   const Plane& history = state_->accumulation.frames();
   compose({seen.geometry, seen.direct, indirect, many, shaded.radiance, shaded, history, prediction}, layers, frame);
   bad = std::max(bad, blacken_not_finite(frame.picture));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "real_time/filtering/bilateral_filter.h"
 #include "real_time/vulkan_transfer.h"
 
 namespace luciole {
@@ -13,6 +14,8 @@ namespace {
 // a light takes one, and a quarter of one for subgroups of four. Of hardware, the longest submission that no watchdog
 // of an operating system minds.
 constexpr std::uint32_t kSoftwarePart = 32768, kHardwarePart = 262144;
+
+constexpr const char* kTransfer = "transfer";
 
 std::uint32_t longest(const SubsetLayout& layout) {
   return layout.count.empty() ? 0 : *std::max_element(layout.count.begin(), layout.count.end());
@@ -34,6 +37,11 @@ void add_times(std::vector<std::pair<std::string, double>>& sums,
 void clear(Radiance& radiance, std::size_t pixels) {
   for (Plane3* planes : {&radiance.diffuse, &radiance.specular})
     for (Plane& plane : *planes) plane.assign(pixels, 0.0f);
+}
+
+// Whether the sums of pixels come back to the CPU.
+bool wants_sums(const VulkanFrame& frame, bool filtered) {
+  return !filtered || frame.noisy_too || frame.lobes_apart || frame.count_per_pixel;
 }
 
 }  // namespace
@@ -62,6 +70,12 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(const Settings& setti
   Result<TileShadingPass> shading = TileShadingPass::create(*engine->device_, settings);
   if (!shading) return shading.error();
   engine->ranges_ = std::move(*ranges), engine->shading_ = std::move(*shading);
+  if (settings.filter == Filter::bilateral) {
+    const FilterRadius radius = filter_radius(settings.interleave);
+    Result<DeviceFilterPass> filter = DeviceFilterPass::create(*engine->device_, radius, settings.interleave);
+    if (!filter) return filter.error();
+    engine->filter_ = std::move(*filter);
+  }
   return engine;
 }
 
@@ -131,12 +145,17 @@ Status VulkanEngine::make_outputs(const VulkanFrame& frame) {
       if (Status grown = grow(*buffer, bytes, gpu::BufferUse::device); !grown) return grown;
     }
   }
-  if (Status s = grow(received_sums_, pixels * sizeof(PixelSums), gpu::BufferUse::readback); !s) return s;
+  if (filters(frame)) {
+    if (Status s = grow(filtered_, pixels * sizeof(PixelLight), gpu::BufferUse::device); !s) return s;
+    if (Status s = grow(filter_counts_, sizeof(FilterCounts), gpu::BufferUse::device); !s) return s;
+  }
+  const std::size_t of_pixel = wants_sums(frame, filters(frame)) ? sizeof(PixelSums) : sizeof(PixelLight);
+  if (Status s = grow(received_pixels_, pixels * of_pixel, gpu::BufferUse::readback); !s) return s;
   return grow(received_counts_, tiles * sizeof(TileCounts), gpu::BufferUse::readback);
 }
 
 Status VulkanEngine::prepare(const VulkanFrame& frame, gpu::CommandList& list) {
-  list.begin_pass("transfer");
+  list.begin_pass(kTransfer);
   if (frame.view != view_) {
     view_ = ~std::uint64_t{0};
     if (Status sent = send_view(frame, list); !sent) return sent;
@@ -174,36 +193,70 @@ Status VulkanEngine::run_parts(const VulkanFrame& frame) {
   return Done{};
 }
 
+// Of one kind of light, or of two together. `light` is a part of `out`.
+Status VulkanEngine::filter_sums(const GeometryBuffer& geometry, std::initializer_list<LightKind> kinds,
+                                 FilteredLight& out, Radiance& light) {
+  const std::size_t pixels = geometry.pixel_count();
+  FilterBuffers buffers{&pixels_, nullptr, nullptr, &filtered_, &filter_counts_};
+  for (const LightKind kind : kinds) {
+    if (lights_[kind].entries > 0) buffers.more_sums = std::exchange(buffers.sums, &sums_[kind]);
+  }
+  if (buffers.sums == nullptr) return Done{};
+  Result<gpu::CommandList> list = gpu::CommandList::create(*device_);
+  if (!list) return list.error();
+  list->begin_pass("filtering");
+  filter_->record(*list, buffers, geometry);
+  list->begin_pass(kTransfer);
+  list->copy(filtered_, received_pixels_, pixels * sizeof(PixelLight));
+  list->copy(filter_counts_, received_counts_, sizeof(FilterCounts));
+  if (Status done = run(*list); !done) return done;
+  unpack(received_pixels_.as<PixelLight>(), pixels, light);
+  out.not_finite = std::max<std::uint64_t>(out.not_finite, received_counts_.as<FilterCounts>()->not_finite);
+  return Done{};
+}
+
+Status VulkanEngine::filter(const VulkanFrame& frame, FilteredLight& out) {
+  clear(out.indirect, frame.geometry.pixel_count());
+  if (Status done = filter_sums(frame.geometry, {kDiffuseLights, kGlossyLights}, out, out.indirect); !done) return done;
+  return filter_sums(frame.geometry, {kManyLights}, out, out.from_many);
+}
+
 Status VulkanEngine::collect(const VulkanFrame& frame, ShadingOutputs& out) {
   const std::size_t pixels = frame.geometry.pixel_count();
   const std::size_t tiles = tile_grid(frame.geometry.width, frame.geometry.height, settings_.interleave).count();
   const float weight = static_cast<float>(settings_.interleave * settings_.interleave);
+  const bool sums = wants_sums(frame, filters(frame));
   for (const LightKind kind : {kDiffuseLights, kGlossyLights, kManyLights}) {
     if (lights_[kind].entries == 0) continue;
     Result<gpu::CommandList> list = gpu::CommandList::create(*device_);
     if (!list) return list.error();
-    list->begin_pass("transfer");
-    list->copy(sums_[kind], received_sums_, pixels * sizeof(PixelSums));
+    list->begin_pass(kTransfer);
+    if (sums) list->copy(sums_[kind], received_pixels_, pixels * sizeof(PixelSums));
     list->copy(tile_counts_[kind], received_counts_, tiles * sizeof(TileCounts));
     if (Status done = run(*list); !done) return done;
-    unpack(frame.geometry, kind, received_sums_.as<PixelSums>(), weight, out);
+    if (sums) unpack(frame.geometry, kind, received_pixels_.as<PixelSums>(), weight, out);
     unpack(kind, received_counts_.as<TileCounts>(), tiles, out);
   }
   return Done{};
 }
 
-Result<VulkanShaded> VulkanEngine::shade(const VulkanFrame& frame) {
-  const auto start = std::chrono::steady_clock::now();
-  passes_ms_ = {{"light_range", 0.0}, {"culling_and_shading", 0.0}, {"transfer", 0.0}};
-  VulkanShaded result;
-  ShadingOutputs& out = result.shaded;
+void VulkanEngine::clear_outputs(const VulkanFrame& frame, ShadingOutputs& out) const {
   const std::size_t pixels = frame.geometry.pixel_count();
-  clear(out.radiance.indirect, pixels);
+  const bool noisy = !filters(frame) || frame.noisy_too;
+  if (noisy) clear(out.radiance.indirect, pixels);
+  if (noisy && frame.many.size() > 0) clear(out.radiance.from_many, pixels);
   if (frame.lobes_apart) clear(out.radiance.from_diffuse, pixels), clear(out.radiance.from_glossy, pixels);
-  if (frame.many.size() > 0) clear(out.radiance.from_many, pixels);
   if (frame.count_per_pixel) out.lights_listed.assign(pixels, 0.0f), out.lights_false.assign(pixels, 0.0f);
   out.pixels = static_cast<std::uint64_t>(std::count_if(frame.geometry.depth.begin(), frame.geometry.depth.end(),
                                                         [](float depth) { return depth != kNoSurface; }));
+}
+
+Result<VulkanShaded> VulkanEngine::shade(const VulkanFrame& frame) {
+  const auto start = std::chrono::steady_clock::now();
+  passes_ms_ = {{"light_range", 0.0}, {"culling_and_shading", 0.0}};
+  if (filters(frame)) passes_ms_.emplace_back("filtering", 0.0);
+  VulkanShaded result;
+  clear_outputs(frame, result.shaded);
   Result<gpu::CommandList> list = gpu::CommandList::create(*device_);
   if (!list) return list.error();
   Status done = prepare(frame, *list);
@@ -213,12 +266,18 @@ Result<VulkanShaded> VulkanEngine::shade(const VulkanFrame& frame) {
   }
   sent_.clear();
   if (done) done = run_parts(frame);
-  if (done) done = collect(frame, out);
+  if (done && filters(frame)) done = filter(frame, result.filtered.emplace());
+  if (done) done = collect(frame, result.shaded);
   if (!done) return done.error();
   // Whatever is not computing is transfer, also on this side.
   const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
-  passes_ms_[2].second = std::max(0.0, wall.count() - passes_ms_[0].second - passes_ms_[1].second);
-  result.passes_ms = passes_ms_;
+  double left = wall.count();
+  for (const auto& [pass, ms] : passes_ms_) {
+    if (pass == kTransfer) continue;
+    result.passes_ms.emplace_back(pass, ms);
+    left -= ms;
+  }
+  result.passes_ms.emplace_back(kTransfer, std::max(0.0, left));
   return result;
 }
 
@@ -227,7 +286,7 @@ Result<std::vector<char>> VulkanEngine::read(const gpu::Buffer& buffer, std::uin
   if (!received) return received.error();
   Result<gpu::CommandList> list = gpu::CommandList::create(*device_);
   if (!list) return list.error();
-  list->begin_pass("transfer");
+  list->begin_pass(kTransfer);
   list->copy(buffer, *received, bytes);
   if (Status done = list->run(); !done) return done.error();
   return std::vector<char>(received->as<char>(), received->as<char>() + bytes);

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Vulkan engine: ranges, culling and shading of a frame on a device, from what the CPU's passes made. Its output is
-// that of shade() (shading/shading_pass.h).
+// The Vulkan engine: ranges, culling, shading and filtering of a frame on a device, from what the CPU's passes made.
+// Its output is that of shade() (shading/shading_pass.h) and of BilateralFilterPass (filtering/bilateral_filter.h).
 #pragma once
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "gpu/command_list.h"
+#include "real_time/filtering/device_filter_pass.h"
 #include "real_time/light_range/light_range_pass.h"
 #include "real_time/many_lights/many_lights.h"
 #include "real_time/shading/shading_pass.h"
@@ -27,11 +30,21 @@ struct VulkanFrame {
   std::uint32_t shift;           // as in ShadingInputs
   bool count_per_pixel = false;  // likewise
   bool lobes_apart = false;
+  bool filter = false;     // filter here, if the settings want a filter; else the noisy light comes back
+  bool noisy_too = false;  // it comes back even so
+};
+
+// What the filter made on the device.
+struct FilteredLight {
+  Radiance indirect;
+  Radiance from_many;            // empty without any
+  std::uint64_t not_finite = 0;  // pixels whose noisy light is not, of the one or the other, whichever has more
 };
 
 struct VulkanShaded {
-  ShadingOutputs shaded;
-  std::vector<std::pair<std::string, double>> passes_ms;  // light_range, culling_and_shading, transfer
+  ShadingOutputs shaded;                  // where `filtered` is there without `noisy_too`, no indirect and from_many
+  std::optional<FilteredLight> filtered;  // where VulkanFrame and the settings want it
+  std::vector<std::pair<std::string, double>> passes_ms;  // light_range, culling_and_shading, filtering, transfer
 };
 
 class VulkanEngine {
@@ -65,6 +78,11 @@ class VulkanEngine {
   Status grow(gpu::Buffer& buffer, std::uint64_t bytes, gpu::BufferUse use);
   Status run(gpu::CommandList& list);
   Status run_parts(const VulkanFrame& frame);
+  bool filters(const VulkanFrame& frame) const { return frame.filter && filter_.has_value(); }
+  Status filter(const VulkanFrame& frame, FilteredLight& out);
+  Status filter_sums(const GeometryBuffer& geometry, std::initializer_list<LightKind> kinds, FilteredLight& out,
+                     Radiance& light);
+  void clear_outputs(const VulkanFrame& frame, ShadingOutputs& out) const;
   Status collect(const VulkanFrame& frame, ShadingOutputs& out);
   Result<std::vector<char>> read(const gpu::Buffer& buffer, std::uint64_t bytes);
 
@@ -73,10 +91,12 @@ class VulkanEngine {
   std::uint32_t largest_part_ = 0;
   LightRangePass ranges_;
   TileShadingPass shading_;
+  std::optional<DeviceFilterPass> filter_;  // none: the settings want no filter
   gpu::Buffer range_frame_, pixels_, vpls_, many_, vpl_subsets_, many_subsets_;
   std::array<LightsOnDevice, kLightKinds> lights_;
   std::array<gpu::Buffer, kLightKinds> sums_, tile_counts_;
-  gpu::Buffer received_sums_, received_counts_;
+  gpu::Buffer filtered_, filter_counts_;
+  gpu::Buffer received_pixels_, received_counts_;
   std::vector<gpu::Buffer> sent_;  // kept until the copies have run
   std::uint32_t longest_subset_vpls_ = 0, longest_subset_many_ = 0;
   std::uint64_t view_ = ~std::uint64_t{0};

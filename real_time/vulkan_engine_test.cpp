@@ -65,6 +65,52 @@ TEST(VulkanFrame, has_the_lobes_that_are_wanted) {
   }
 }
 
+// From the first pass on the device on.
+std::vector<std::string> passes_of(const Frame& frame) {
+  std::vector<std::string> passes;
+  for (const auto& [pass, ms] : frame.statistics.passes_ms) passes.push_back(pass);
+  passes.erase(passes.begin(), std::find(passes.begin(), passes.end(), "light_range"));
+  return passes;
+}
+
+// What comes back is the filtered light; with the layer of the unfiltered one that comes too, and changes nothing.
+TEST(VulkanFrame, is_filtered_on_the_device) {
+  Settings settings = small_settings();
+  const Front front("recipe:lights?count=500", settings);
+  settings.engine = Engine::vulkan;
+  const Result<Frame> noisy = render(front, settings);
+  settings.filter = Filter::bilateral;
+  const Result<Frame> with_layers = render(front, settings);
+  Result<Renderer> renderer = Renderer::create(front.scene, front.scene->cameras.at(0), front.primaries, settings);
+  ASSERT_TRUE(renderer.has_value()) << renderer.error().message;
+  const Result<Frame> alone = renderer->render(0);
+  ASSERT_TRUE(alone.has_value()) << alone.error().message;
+  EXPECT_EQ(relmse(*alone, *with_layers), 0);
+  for (const char* channel : {"unfiltered.R", "unfiltered.G", "unfiltered.B"})
+    EXPECT_EQ(with_layers->layers.channels.at(channel), noisy->layers.channels.at(channel));
+  EXPECT_GT(relmse(*noisy, *alone), 0);
+  EXPECT_EQ(passes_of(*alone),
+            (std::vector<std::string>{"light_range", "culling_and_shading", "filtering", "transfer", "composition"}));
+}
+
+// Light is accumulated before it is filtered, and the CPU accumulates.
+TEST(VulkanFrame, that_is_accumulated_is_filtered_by_the_cpu) {
+  Settings settings = small_settings();
+  settings.filter = Filter::bilateral, settings.temporal = 4;
+  const Front front("recipe:cornell?glossy=0.1", settings);
+  const auto second = [&](Engine engine, std::uint64_t first) {
+    settings.engine = engine;
+    Result<Renderer> renderer = Renderer::create(front.scene, front.scene->cameras.at(0), front.primaries, settings);
+    EXPECT_TRUE(renderer.has_value()) << renderer.error().message;
+    EXPECT_TRUE(renderer->render(first).has_value());
+    return *renderer->render(first + 1);
+  };
+  const Frame device = second(Engine::vulkan, 0), cpu = second(Engine::cpu, 0), another = second(Engine::cpu, 8);
+  EXPECT_LT(relmse(device, cpu), 1e-3 * relmse(another, cpu));
+  EXPECT_EQ(passes_of(device), (std::vector<std::string>{"light_range", "culling_and_shading", "transfer",
+                                                         "temporal_accumulation", "filtering", "composition"}));
+}
+
 TEST(VulkanFrame, of_settings_that_the_engine_cannot_do_is_refused) {
   Settings settings = small_settings();
   settings.engine = Engine::vulkan;
@@ -121,6 +167,19 @@ TEST(VulkanFrame, outlives_the_loss_of_its_device) {
   EXPECT_NE(third->statistics.notes.at(0).find("the CPU engine goes on"), std::string::npos);
   EXPECT_EQ(relmse(*third, *cpu), 0);
   EXPECT_EQ(renderer->settings().engine, Engine::cpu);
+}
+
+TEST(VulkanFrame, whose_device_is_lost_while_it_filters_is_filtered_by_the_cpu) {
+  Settings settings = small_settings();
+  settings.filter = Filter::bilateral;
+  const Front front("recipe:cornell?glossy=0.1", settings);
+  const Result<Frame> cpu = render(front, settings);
+  settings.engine = Engine::vulkan;
+  settings.lost_from_submission = 4;  // after ranges and two kinds of lights
+  const Result<Frame> device = render(front, settings);
+  ASSERT_TRUE(device.has_value()) << device.error().message;
+  EXPECT_EQ(device->statistics.engine, "cpu");
+  EXPECT_EQ(relmse(*device, *cpu), 0);
 }
 
 }  // namespace

@@ -20,11 +20,12 @@ LightCounts& counts_of(LightKind kind, ShadingOutputs& out) {
   return kind == kDiffuseLights ? out.diffuse : kind == kGlossyLights ? out.glossy : out.many;
 }
 
-// The radiance that a kind is added to, and the layer that has it alone; null: nobody asked.
+// The radiance that a kind is added to, and the layer that has it alone; null: nobody asked, the planes are empty.
 std::array<Radiance*, 2> radiance_of(LightKind kind, ShadedRadiance& radiance) {
-  if (kind == kManyLights) return {&radiance.from_many, nullptr};
-  Radiance& alone = kind == kDiffuseLights ? radiance.from_diffuse : radiance.from_glossy;
-  return {&radiance.indirect, alone.diffuse[0].empty() ? nullptr : &alone};
+  const auto if_wanted = [](Radiance& light) { return light.diffuse[0].empty() ? nullptr : &light; };
+  if (kind == kManyLights) return {if_wanted(radiance.from_many), nullptr};
+  return {if_wanted(radiance.indirect),
+          if_wanted(kind == kDiffuseLights ? radiance.from_diffuse : radiance.from_glossy)};
 }
 
 }  // namespace
@@ -88,6 +89,17 @@ void unpack(const GeometryBuffer& geometry, LightKind kind, const PixelSums* sum
       if (!count) continue;
       out.lights_listed[i] += static_cast<float>(sums[i].listed);
       out.lights_false[i] += static_cast<float>(sums[i].listed - sums[i].accepted);
+    }
+  });
+}
+
+void unpack(const PixelLight* from, std::size_t pixels, Radiance& light) {
+  light.resize(pixels);
+  parallel_for(pixels, kAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        light.diffuse[c][i] = from[i].diffuse[c], light.specular[c][i] = from[i].specular[c];
+      }
     }
   });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Between the CPU's doors and the device's records.
 #pragma once
+#include "real_time/filtering/filter_records.h"
 #include "real_time/geometry_buffer/geometry_buffer.h"
 #include "real_time/light_range/light_range_pass.h"
 #include "real_time/light_range/subset_layout.h"
@@ -20,5 +21,8 @@ void pack(const SubsetLayout& layout, SubsetRange* to);                         
 //   weight  n^2
 void unpack(const GeometryBuffer& geometry, LightKind kind, const PixelSums* sums, float weight, ShadingOutputs& out);
 void unpack(LightKind kind, const TileCounts* tiles, std::size_t count, ShadingOutputs& out);
+
+// What the filter made, into planes of that many pixels.
+void unpack(const PixelLight* from, std::size_t pixels, Radiance& light);
 
 }  // namespace luciole

@@ -10,7 +10,7 @@ namespace {
 // layers find what they are there for.
 TEST(Validation, has_nothing_to_say_of_a_frame) {
   Settings settings = small_settings();
-  settings.engine = Engine::vulkan, settings.vulkan_validation = true;
+  settings.engine = Engine::vulkan, settings.vulkan_validation = true, settings.filter = Filter::bilateral;
   const Front front("recipe:lights?count=500", settings);
   ASSERT_GT(front.vpls.size(), 0u);
   ASSERT_GT(front.many.size(), 0u);

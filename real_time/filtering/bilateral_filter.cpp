@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/parallel.h"
+#include "real_time/filtering/filter_tile.h"
 
 namespace luciole {
 namespace {
@@ -47,9 +48,8 @@ FilterPicture picture_of(const BilateralFilterPass::Inputs& inputs, Radiance& cl
   copy_axis(picture.right, g.camera.right);
   copy_axis(picture.up, g.camera.up);
   copy_axis(picture.forward, g.camera.forward);
-  picture.footprint = 2.0f * std::tan(0.5f * g.camera.vertical_fov) / static_cast<float>(g.height);
-  picture.left_edge = g.sub_pixel_x - 0.5f * static_cast<float>(g.width);
-  picture.top_edge = g.sub_pixel_y - 0.5f * static_cast<float>(g.height);
+  const FilterView view = filter_view(g);
+  picture.footprint = view.footprint, picture.left_edge = view.left_edge, picture.top_edge = view.top_edge;
   return picture;
 }
 
@@ -65,6 +65,11 @@ FilterRadius filter_radius(std::uint32_t interleave) {
   const int multiple = static_cast<int>(std::max(interleave, 1u));
   const int radius = kLargestFilterRadius / multiple * multiple;
   return {radius, radius};
+}
+
+FilterView filter_view(const GeometryBuffer& g) {
+  return {2.0f * std::tan(0.5f * g.camera.vertical_fov) / static_cast<float>(g.height),
+          g.sub_pixel_x - 0.5f * static_cast<float>(g.width), g.sub_pixel_y - 0.5f * static_cast<float>(g.height)};
 }
 
 const Radiance& BilateralFilterPass::run(const Inputs& inputs) {

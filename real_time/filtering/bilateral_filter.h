@@ -4,7 +4,7 @@
 #pragma once
 #include <cstdint>
 
-#include "real_time/filtering/filter_tile.h"
+#include "real_time/filtering/filter_radius.h"
 #include "real_time/settings.h"
 #include "real_time/shading/radiance.h"
 
@@ -14,6 +14,12 @@ namespace luciole {
 // 1, 2, 4 and 8: smaller n needs less for its pattern, but roulette noise stays, and at 1280x720 no smaller radius has
 // a smaller error (docs/decisions/filter.md). For other n, the largest multiple up to 8.
 FilterRadius filter_radius(std::uint32_t interleave);
+
+// Where the samples of pixels lie, as the weights need it (FilterPicture).
+struct FilterView {
+  float footprint, left_edge, top_edge;
+};
+FilterView filter_view(const GeometryBuffer& geometry);
 
 class BilateralFilterPass {
  public:

@@ -4,13 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace luciole {
+#include "real_time/filtering/filter_radius.h"
 
-// Half the kernel's width and height [pixels]; the taps of both ends weigh a half.
-struct FilterRadius {
-  int x = 0, y = 0;  // 0 ... kLargestFilterRadius
-};
-inline constexpr int kLargestFilterRadius = 8;
+namespace luciole {
 
 // The whole picture. Planes may be read 64 bytes past their end (base/aligned_vector.h).
 struct FilterPicture {
@@ -48,7 +44,6 @@ enum FilterQuantity : int {
 };
 inline constexpr int kFilterRow = kFilterQuantities * kFilterLine;
 inline constexpr std::size_t kFilterScratch = std::size_t(kFilterRow) * (kFilterTile + 2 * kLargestFilterRadius);
-inline constexpr float kNoInverseDepth = -1e18f;
 
 struct FilterTile {
   int x = 0, y = 0, width = 0, height = 0;  // of the pixels to make

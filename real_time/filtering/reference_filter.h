@@ -2,7 +2,7 @@
 // The bilateral filter once more for its tests: one tap at a time, in double, from positions instead of inverse depths,
 // with the mistakes built in that the tests must catch.
 #pragma once
-#include "real_time/filtering/filter_tile.h"
+#include "real_time/filtering/filter_radius.h"
 #include "real_time/shading/radiance.h"
 
 namespace luciole {
