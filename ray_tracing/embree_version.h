@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What differs between Embree 3.13 and 4, in one place. Only ray_scene.cpp and alpha_filter.cpp include this.
+// What differs between Embree 3.13 and 4, in one place. Only ray_scene.cpp, alpha_filter.cpp and hierarchy.cpp
+// include this.
 #pragma once
 #include <cstdint>
 

@@ -10,6 +10,7 @@
 
 #include "base/thread_sanitizer.h"
 #include "ray_tracing/alpha_filter.h"
+#include "ray_tracing/check_indices.h"
 #include "ray_tracing/embree_version.h"
 #include "scene/surface.h"
 
@@ -76,17 +77,6 @@ Error embree_error(RTCError code, const std::string& text) {
     return {ErrorKind::out_of_memory, "the scene's ray tracing hierarchy does not fit into memory"};
   }
   return {ErrorKind::failed, "Embree cannot trace this scene: " + (text.empty() ? std::string("unknown error") : text)};
-}
-
-Status check_indices(const Mesh& mesh) {
-  const std::size_t vertices = mesh.positions.size();
-  for (const std::uint32_t index : mesh.indices) {
-    if (index >= vertices) {
-      return Error{ErrorKind::bad_scene, "mesh '" + mesh.name + "' refers to vertex " + std::to_string(index) +
-                                             " but has " + std::to_string(vertices)};
-    }
-  }
-  return Done{};
 }
 
 float largest_coordinate(const Bounds& box) {
