@@ -47,7 +47,7 @@ endif()
 # Folders keep their names, so that the same #include works inside and outside the tree.
 foreach(folder ${luciole_installed_folders})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION include/luciole FILES_MATCHING
-          PATTERN "*.h" PATTERN "*.inc" PATTERN browser EXCLUDE)
+          PATTERN "*.h" PATTERN "*.inc" PATTERN "*.glsl" PATTERN browser EXCLUDE)
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/shots DESTINATION ${CMAKE_INSTALL_DATADIR}/luciole FILES_MATCHING
         PATTERN "*.toml")

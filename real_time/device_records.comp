@@ -6,6 +6,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "real_time/filtering/filter_records.h"
+#include "ray_tracing/hierarchy_records.h"
+#include "real_time/device_scene/scene_records.h"
 #include "real_time/light_range/emitters.h"
 #include "real_time/light_range/range_records.h"
 #include "real_time/shading/shading_records.h"
@@ -27,6 +29,13 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Records {
   PixelSums pixel_sums[2];
   TileCounts tile_counts[2];
   SubsetRange subset_ranges[2];
+  HierarchyNode hierarchy_nodes[2];
+  HierarchyTriangle hierarchy_triangles[2];
+  SlotRecord slots[2];
+  MaterialRecord materials[2];
+  TextureRecord textures[2];
+  MeshRecord meshes[2];
+  SceneRecord scenes[2];
   ShadingPush shading_pushes[1];
 };
 layout(push_constant, scalar) uniform Push { Records records; };

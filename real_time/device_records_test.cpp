@@ -7,6 +7,8 @@
 #include <string>
 
 #include "gpu/shader_code.h"
+#include "ray_tracing/hierarchy_records.h"
+#include "real_time/device_scene/scene_records.h"
 #include "real_time/filtering/filter_records.h"
 #include "real_time/light_range/emitters.h"
 #include "real_time/light_range/range_records.h"
@@ -197,6 +199,71 @@ const Expected kMembers[] = {
     LUCIOLE_MEMBER(ShadingPush, shift),
     LUCIOLE_MEMBER(ShadingPush, first_light),
     LUCIOLE_MEMBER(ShadingPush, light_count),
+    LUCIOLE_MEMBER(HierarchyNode, low_x),
+    LUCIOLE_MEMBER(HierarchyNode, low_y),
+    LUCIOLE_MEMBER(HierarchyNode, low_z),
+    LUCIOLE_MEMBER(HierarchyNode, high_x),
+    LUCIOLE_MEMBER(HierarchyNode, high_y),
+    LUCIOLE_MEMBER(HierarchyNode, high_z),
+    LUCIOLE_MEMBER(HierarchyNode, child),
+    LUCIOLE_MEMBER(HierarchyTriangle, a),
+    LUCIOLE_MEMBER(HierarchyTriangle, b),
+    LUCIOLE_MEMBER(HierarchyTriangle, c),
+    LUCIOLE_MEMBER(HierarchyTriangle, mesh),
+    LUCIOLE_MEMBER(HierarchyTriangle, triangle),
+    LUCIOLE_MEMBER(HierarchyTriangle, has_holes),
+    LUCIOLE_MEMBER(TextureRecord, texels),
+    LUCIOLE_MEMBER(TextureRecord, levels),
+    LUCIOLE_MEMBER(TextureRecord, width),
+    LUCIOLE_MEMBER(TextureRecord, height),
+    LUCIOLE_MEMBER(TextureRecord, level_count),
+    LUCIOLE_MEMBER(TextureRecord, srgb),
+    LUCIOLE_MEMBER(TextureRecord, wrap_u),
+    LUCIOLE_MEMBER(TextureRecord, wrap_v),
+    LUCIOLE_MEMBER(TextureRecord, mip_filter),
+    LUCIOLE_MEMBER(TextureRecord, magnify_linear),
+    LUCIOLE_MEMBER(TextureRecord, minify_linear),
+    LUCIOLE_MEMBER(SlotRecord, texture),
+    LUCIOLE_MEMBER(SlotRecord, uv_set),
+    LUCIOLE_MEMBER(SlotRecord, a),
+    LUCIOLE_MEMBER(SlotRecord, b),
+    LUCIOLE_MEMBER(SlotRecord, c),
+    LUCIOLE_MEMBER(SlotRecord, d),
+    LUCIOLE_MEMBER(SlotRecord, offset),
+    LUCIOLE_MEMBER(MaterialRecord, base_colour_texture),
+    LUCIOLE_MEMBER(MaterialRecord, metallic_roughness_texture),
+    LUCIOLE_MEMBER(MaterialRecord, normal_texture),
+    LUCIOLE_MEMBER(MaterialRecord, emissive_texture),
+    LUCIOLE_MEMBER(MaterialRecord, base_colour),
+    LUCIOLE_MEMBER(MaterialRecord, emission),
+    LUCIOLE_MEMBER(MaterialRecord, metallic),
+    LUCIOLE_MEMBER(MaterialRecord, dielectric_f0),
+    LUCIOLE_MEMBER(MaterialRecord, dielectric_f90),
+    LUCIOLE_MEMBER(MaterialRecord, roughness),
+    LUCIOLE_MEMBER(MaterialRecord, normal_scale),
+    LUCIOLE_MEMBER(MaterialRecord, metallic_override),
+    LUCIOLE_MEMBER(MaterialRecord, ggx_alpha_override),
+    LUCIOLE_MEMBER(MaterialRecord, least_alpha),
+    LUCIOLE_MEMBER(MaterialRecord, emits),
+    LUCIOLE_MEMBER(MaterialRecord, double_sided),
+    LUCIOLE_MEMBER(MeshRecord, positions),
+    LUCIOLE_MEMBER(MeshRecord, normals),
+    LUCIOLE_MEMBER(MeshRecord, tangents),
+    LUCIOLE_MEMBER(MeshRecord, colours),
+    LUCIOLE_MEMBER(MeshRecord, uv),
+    LUCIOLE_MEMBER(MeshRecord, indices),
+    LUCIOLE_MEMBER(MeshRecord, material),
+    LUCIOLE_MEMBER(SceneRecord, nodes),
+    LUCIOLE_MEMBER(SceneRecord, triangles),
+    LUCIOLE_MEMBER(SceneRecord, meshes),
+    LUCIOLE_MEMBER(SceneRecord, materials),
+    LUCIOLE_MEMBER(SceneRecord, textures),
+    LUCIOLE_MEMBER(SceneRecord, linear_from_srgb),
+    LUCIOLE_MEMBER(SceneRecord, environment),
+    LUCIOLE_MEMBER(SceneRecord, root),
+    LUCIOLE_MEMBER(SceneRecord, environment_width),
+    LUCIOLE_MEMBER(SceneRecord, environment_height),
+    LUCIOLE_MEMBER(SceneRecord, environment_radiance),
 };
 
 // Arrays of two records follow each other in this order: where one begins, the sizes before it added up.
@@ -218,7 +285,15 @@ const Array kArrays[] = {{"diffuse_emitters", 2 * sizeof(DiffuseEmitter)},
                          {"pixels", 2 * sizeof(PixelRecord)},
                          {"pixel_sums", 2 * sizeof(PixelSums)},
                          {"tile_counts", 2 * sizeof(TileCounts)},
-                         {"subset_ranges", 2 * sizeof(SubsetRange)}};
+                         {"subset_ranges", 2 * sizeof(SubsetRange)},
+                         {"hierarchy_nodes", 2 * sizeof(HierarchyNode)},
+                         {"hierarchy_triangles", 2 * sizeof(HierarchyTriangle)},
+                         {"slots", 2 * sizeof(SlotRecord)},
+                         {"materials", 2 * sizeof(MaterialRecord)}};
+const Array kArraysWithAddresses[] = {{"textures", 2 * sizeof(TextureRecord)},
+                                      {"meshes", 2 * sizeof(MeshRecord)},
+                                      {"scenes", 2 * sizeof(SceneRecord)},
+                                      {"shading_pushes", sizeof(ShadingPush)}};
 
 TEST(DeviceRecords, have_their_members_where_shaders_have_them) {
   const auto offsets = Layouts(device_records).offsets();
@@ -236,7 +311,11 @@ TEST(DeviceRecords, are_as_long_as_in_shaders) {
     EXPECT_EQ(offsets.at(std::string("Records.") + array.member), begin) << "before " << array.member;
     begin += array.bytes;
   }
-  EXPECT_EQ(offsets.at("Records.shading_pushes"), (begin + 7) / 8 * 8) << "which starts with an address";
+  begin = (begin + 7) / 8 * 8;  // the others start with an address
+  for (const Array& array : kArraysWithAddresses) {
+    EXPECT_EQ(offsets.at(std::string("Records.") + array.member), begin) << "before " << array.member;
+    begin += array.bytes;
+  }
 }
 
 TEST(DeviceRecords, of_another_layout_are_caught) {

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene in a device's memory: triangles in a hierarchy, what surfaces are made of, the sky. scene.glsl reads it.
+#pragma once
+#include "gpu/buffer.h"
+#include "ray_tracing/hierarchy.h"
+#include "real_time/device_scene/scene_records.h"
+#include "scene/scene.h"
+
+namespace luciole {
+
+class DeviceScene {
+ public:
+  // Copies what it needs: neither scene nor hierarchy must outlive it.
+  //   hierarchy  of that scene
+  static Result<DeviceScene> create(gpu::Device& device, const Scene& scene, const Hierarchy& hierarchy);
+
+  std::uint64_t address() const { return record_.address(); }  // of the SceneRecord
+  std::uint64_t bytes() const;                                 // of all buffers
+
+ private:
+  gpu::Buffer record_, nodes_, triangles_, vertices_, tables_, texels_, meshes_, materials_, textures_, environment_;
+};
+
+}  // namespace luciole
