@@ -6,7 +6,7 @@
 namespace luciole::gpu {
 
 Result<std::unique_ptr<Device>> Device::create(const DeviceRequest& request) {
-  Result<std::unique_ptr<Instance>> instance = Instance::create(request.validation);
+  Result<std::unique_ptr<Instance>> instance = Instance::create(request.validation, request.in_kernels);
   if (!instance) return instance.error();
   const std::vector<DeviceDescription> devices = list_devices(**instance);
   const Result<std::size_t> chosen = choose_device(devices, request.wanted, request.hardware_only);

@@ -17,6 +17,7 @@ struct DeviceRequest {
   std::string wanted;          // index, or part of the name; empty: the best there is
   bool hardware_only = false;  // no software on the CPU
   bool validation = false;     // with the validation layers
+  bool in_kernels = true;      // which also check what kernels read and write (Instance::create)
   // For tests of what follows: this submission, counted from 1, and all later ones answer as a lost device does. 0:
   // none.
   std::uint32_t lost_from_submission = 0;

@@ -9,9 +9,11 @@
 namespace luciole::gpu {
 namespace {
 
-constexpr std::array kChecks = {VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_EXT,
-                                VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_RESERVE_BINDING_SLOT_EXT,
-                                VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+// Beside the core. The last two look at what kernels do.
+constexpr std::array kChecks = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT,
+                                VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_EXT,
+                                VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_RESERVE_BINDING_SLOT_EXT};
+constexpr std::size_t kChecksOfCalls = 1;
 constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
 
 }  // namespace
@@ -33,7 +35,7 @@ VkDebugUtilsMessengerCreateInfoEXT Instance::messenger_to_this() {
   return how;
 }
 
-Result<std::unique_ptr<Instance>> Instance::create(bool validation) {
+Result<std::unique_ptr<Instance>> Instance::create(bool validation, bool in_kernels) {
   std::unique_ptr<Instance> instance(new Instance);
   auto application = of_type<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
   application.pApplicationName = "luciole";
@@ -41,7 +43,7 @@ Result<std::unique_ptr<Instance>> Instance::create(bool validation) {
   auto wanted = of_type<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
   wanted.pApplicationInfo = &application;
   auto checks = of_type<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT);
-  checks.enabledValidationFeatureCount = static_cast<std::uint32_t>(kChecks.size());
+  checks.enabledValidationFeatureCount = static_cast<std::uint32_t>(in_kernels ? kChecks.size() : kChecksOfCalls);
   checks.pEnabledValidationFeatures = kChecks.data();
   const char* const extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
   if (validation) {

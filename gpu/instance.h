@@ -15,7 +15,8 @@ namespace luciole::gpu {
 class Instance {
  public:
   // validation  with the Khronos layers: core, synchronisation and GPU-assisted checks; slow
-  static Result<std::unique_ptr<Instance>> create(bool validation);
+  // in_kernels  with the GPU-assisted ones: each access of a kernel is checked, and large ones take minutes to compile
+  static Result<std::unique_ptr<Instance>> create(bool validation, bool in_kernels = true);
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;

@@ -8,6 +8,7 @@
 #include "real_time/filtering/filter_records.h"
 #include "ray_tracing/hierarchy_records.h"
 #include "real_time/device_scene/scene_records.h"
+#include "real_time/geometry_buffer/geometry_records.h"
 #include "real_time/light_range/emitters.h"
 #include "real_time/light_range/range_records.h"
 #include "real_time/shading/shading_records.h"
@@ -33,9 +34,11 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Records {
   HierarchyTriangle hierarchy_triangles[2];
   SlotRecord slots[2];
   MaterialRecord materials[2];
+  SurfaceRecord surfaces[2];
   TextureRecord textures[2];
   MeshRecord meshes[2];
   SceneRecord scenes[2];
+  GeometryPush geometry_pushes[1];
   ShadingPush shading_pushes[1];
 };
 layout(push_constant, scalar) uniform Push { Records records; };

@@ -10,6 +10,7 @@
 #include "ray_tracing/hierarchy_records.h"
 #include "real_time/device_scene/scene_records.h"
 #include "real_time/filtering/filter_records.h"
+#include "real_time/geometry_buffer/geometry_records.h"
 #include "real_time/light_range/emitters.h"
 #include "real_time/light_range/range_records.h"
 #include "real_time/shading/shading_records.h"
@@ -264,6 +265,25 @@ const Expected kMembers[] = {
     LUCIOLE_MEMBER(SceneRecord, environment_width),
     LUCIOLE_MEMBER(SceneRecord, environment_height),
     LUCIOLE_MEMBER(SceneRecord, environment_radiance),
+    LUCIOLE_MEMBER(SurfaceRecord, diffuse_albedo),
+    LUCIOLE_MEMBER(SurfaceRecord, emission),
+    LUCIOLE_MEMBER(SurfaceRecord, material),
+    LUCIOLE_MEMBER(SurfaceRecord, mesh),
+    LUCIOLE_MEMBER(SurfaceRecord, triangle),
+    LUCIOLE_MEMBER(SurfaceRecord, u),
+    LUCIOLE_MEMBER(SurfaceRecord, v),
+    LUCIOLE_MEMBER(GeometryPush, scene),
+    LUCIOLE_MEMBER(GeometryPush, pixels),
+    LUCIOLE_MEMBER(GeometryPush, surfaces),
+    LUCIOLE_MEMBER(GeometryPush, unfinished),
+    LUCIOLE_MEMBER(GeometryPush, eye),
+    LUCIOLE_MEMBER(GeometryPush, forward),
+    LUCIOLE_MEMBER(GeometryPush, top_left),
+    LUCIOLE_MEMBER(GeometryPush, across),
+    LUCIOLE_MEMBER(GeometryPush, down),
+    LUCIOLE_MEMBER(GeometryPush, pixel_size),
+    LUCIOLE_MEMBER(GeometryPush, width),
+    LUCIOLE_MEMBER(GeometryPush, height),
 };
 
 // Arrays of two records follow each other in this order: where one begins, the sizes before it added up.
@@ -289,10 +309,13 @@ const Array kArrays[] = {{"diffuse_emitters", 2 * sizeof(DiffuseEmitter)},
                          {"hierarchy_nodes", 2 * sizeof(HierarchyNode)},
                          {"hierarchy_triangles", 2 * sizeof(HierarchyTriangle)},
                          {"slots", 2 * sizeof(SlotRecord)},
-                         {"materials", 2 * sizeof(MaterialRecord)}};
+                         {"materials", 2 * sizeof(MaterialRecord)},
+                         {"surfaces", 2 * sizeof(SurfaceRecord)}};
+
 const Array kArraysWithAddresses[] = {{"textures", 2 * sizeof(TextureRecord)},
                                       {"meshes", 2 * sizeof(MeshRecord)},
                                       {"scenes", 2 * sizeof(SceneRecord)},
+                                      {"geometry_pushes", sizeof(GeometryPush)},
                                       {"shading_pushes", sizeof(ShadingPush)}};
 
 TEST(DeviceRecords, have_their_members_where_shaders_have_them) {

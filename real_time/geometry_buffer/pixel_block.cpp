@@ -51,15 +51,13 @@ struct Evaluated {
 
 }  // namespace
 
-ScreenRays::ScreenRays(const GeometryBufferInputs& inputs) {
-  const Camera& camera = inputs.camera;
+ScreenRays::ScreenRays(const Camera& camera, std::uint32_t width, std::uint32_t height, Vec2 sub_pixel) {
   const float half_height = std::tan(0.5f * camera.vertical_fov);
   eye = camera.eye, forward = camera.forward;
-  pixel_size = 2 * half_height / static_cast<float>(inputs.height);
+  pixel_size = 2 * half_height / static_cast<float>(height);
   across = camera.right * pixel_size, down = camera.up * -pixel_size;
-  top_left = camera.forward - across * (0.5f * static_cast<float>(inputs.width)) -
-             down * (0.5f * static_cast<float>(inputs.height)) + across * inputs.sub_pixel.x +
-             down * inputs.sub_pixel.y;
+  top_left = camera.forward - across * (0.5f * static_cast<float>(width)) - down * (0.5f * static_cast<float>(height)) +
+             across * sub_pixel.x + down * sub_pixel.y;
 }
 
 // The pixels of packets that meet several meshes, which wait for others of their mesh. Their order is kept, so that the
@@ -104,7 +102,7 @@ struct BlockRenderer::MixedPixels {
 
 BlockRenderer::BlockRenderer(const GeometryBufferInputs& inputs)
     : scene_(inputs.scene),
-      screen_(inputs),
+      screen_(inputs.camera, inputs.width, inputs.height, inputs.sub_pixel),
       tables_(inputs.scene.scene()),
       evaluate_(LUCIOLE_FOR_ISA(known(inputs.isa), evaluate_surfaces)) {}
 

@@ -43,7 +43,7 @@ struct ScreenRays {
   Vec3 eye, forward, top_left, across, down;
   float pixel_size;  // height of a pixel at distance 1 [m]
 
-  explicit ScreenRays(const GeometryBufferInputs& inputs);
+  ScreenRays(const Camera& camera, std::uint32_t width, std::uint32_t height, Vec2 sub_pixel);
   Vec3 direction(std::uint32_t x, std::uint32_t y) const {
     return top_left + across * static_cast<float>(x) + down * static_cast<float>(y);
   }
