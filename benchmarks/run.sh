@@ -172,7 +172,7 @@ variance_parts() {
 
 # Against pbrt-v4 where $PBRT names its program: the same scene, which `luciole make` writes for it.
 pbrt() {
-  local count bounces seconds samples tree_error pbrt_error
+  local count bounces samples
   printf '# Beside pbrt-v4\n\nRemake: `PBRT=path/to/pbrt benchmarks/run.sh pbrt`. Processor: %s.\n\n' "$processor"
   cat << 'TEXT'
 `luciole make lamps count=N matte=1 --bounces B -o lamps.pbrt` is what pbrt renders: integrator `path`, light sampler
