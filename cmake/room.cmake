@@ -40,7 +40,7 @@ endfunction()
 # luciole_device_test(name SOURCES a_test.cpp LINK luciole_gpu ... [LABEL statistical] [WIDTHS 8])
 # Tests on a Vulkan device, run as <name>_width_<n> for subgroups of 4, 8 and 16 invocations: so wide Mesa's software Vulkan
 # makes them by its variable; other drivers ignore it. What it compiles, half a minute in all, it keeps beside the build. Under
-# the thread sanitizer they do not run, as it would have to know the driver's threads; nor are leaks looked for, as drivers
+# the thread sanitizer they are not built, as it would have to know the driver's threads; nor are leaks looked for, as drivers
 # keep what they compiled.
 function(luciole_device_test name)
   if(NOT LUCIOLE_TESTS)
@@ -61,6 +61,7 @@ function(luciole_device_test name)
   endif()
   luciole_test_program(${name} SOURCES ${TEST_SOURCES} LINK ${TEST_LINK})
   if(LUCIOLE_SANITIZE MATCHES "thread")
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
     return()
   endif()
   foreach(width ${TEST_WIDTHS})
