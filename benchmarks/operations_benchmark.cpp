@@ -4,7 +4,7 @@
 // lines "name number"; benchmarks/gpu.sh makes floors of them.
 #include <cstdio>
 
-#include "benchmarks/counting_real.h"
+#include "equations/cpp/counting.h"
 #include "real_time/light_range/emitters.h"
 #include "real_time/light_range/reaching_lights.h"
 #include "real_time/shading/shading_records.h"
