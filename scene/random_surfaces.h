@@ -111,4 +111,16 @@ inline Scene random_scene(Dice& dice, bool smooth) {
   return scene;
 }
 
+// Triangles without area, and coordinates that are not numbers.
+inline Scene broken_scene(Dice& dice) {
+  Scene scene = random_scene(dice, true);
+  for (Mesh& mesh : scene.meshes) {
+    mesh.positions[1] = mesh.positions[2] = mesh.positions[0];
+    for (auto& set : mesh.uv) {
+      if (set.size() > 5) set[4] = {INFINITY, NAN}, set[5] = {-1e30f, 1e30f};
+    }
+  }
+  return scene;
+}
+
 }  // namespace luciole::test
