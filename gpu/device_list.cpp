@@ -68,7 +68,28 @@ void note_missing_abilities(VkPhysicalDevice device, const VkPhysicalDeviceSubgr
     missing.emplace_back("workgroups of 256 invocations");
   }
   if (limits.maxComputeSharedMemorySize < kSharedBytes) missing.emplace_back("32 KiB of shared memory");
-  if (compute_queue_family(device) == ~0u) missing.emplace_back("a compute queue with timestamps");
+  if (choose_queue_family(device) == ~0u) missing.emplace_back("a compute queue with timestamps");
+}
+
+std::vector<VkQueueFamilyProperties> queue_families(VkPhysicalDevice device) {
+  return listed<VkQueueFamilyProperties>([&](std::uint32_t* count, VkQueueFamilyProperties* to) {
+    vkGetPhysicalDeviceQueueFamilyProperties(device, count, to);
+  });
+}
+
+// What a device may lack and still be of use: then rays are cast instead.
+bool can_rasterise(VkPhysicalDevice device) {
+  const std::uint32_t family = choose_queue_family(device);
+  if (family == ~0u || !(queue_families(device)[family].queueFlags & VK_QUEUE_GRAPHICS_BIT)) return false;
+  auto in_1_3 = of_type<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
+  auto features = of_type<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+  features.pNext = &in_1_3;
+  vkGetPhysicalDeviceFeatures2(device, &features);
+  VkFormatProperties depth;
+  vkGetPhysicalDeviceFormatProperties(device, VK_FORMAT_D32_SFLOAT, &depth);
+  return in_1_3.dynamicRendering && features.features.multiDrawIndirect &&
+         features.features.drawIndirectFirstInstance &&
+         (depth.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0;
 }
 
 DeviceDescription describe(VkPhysicalDevice device) {
@@ -90,6 +111,7 @@ DeviceDescription describe(VkPhysicalDevice device) {
   }
   note_missing_features(device, d.missing);
   note_missing_abilities(device, subgroups, properties.properties.limits, d.missing);
+  d.rasterises = can_rasterise(device);
   return d;
 }
 
@@ -127,14 +149,15 @@ std::vector<VkPhysicalDevice> physical_devices(const Instance& instance) {
       [&](std::uint32_t* count, VkPhysicalDevice* to) { vkEnumeratePhysicalDevices(instance.handle(), count, to); });
 }
 
-std::uint32_t compute_queue_family(VkPhysicalDevice device) {
-  const auto families = listed<VkQueueFamilyProperties>([&](std::uint32_t* count, VkQueueFamilyProperties* to) {
-    vkGetPhysicalDeviceQueueFamilyProperties(device, count, to);
-  });
+std::uint32_t choose_queue_family(VkPhysicalDevice device) {
+  const std::vector<VkQueueFamilyProperties> families = queue_families(device);
+  std::uint32_t chosen = ~0u;
   for (std::uint32_t i = 0; i < families.size(); ++i) {
-    if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) && families[i].timestampValidBits > 0) return i;
+    if (!(families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) || families[i].timestampValidBits == 0) continue;
+    if (families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) return i;
+    if (chosen == ~0u) chosen = i;
   }
-  return ~0u;
+  return chosen;
 }
 
 std::vector<DeviceDescription> list_devices(const Instance& instance) {
