@@ -9,6 +9,7 @@
 #include "ray_tracing/hierarchy_records.h"
 #include "real_time/device_scene/scene_records.h"
 #include "real_time/geometry_buffer/geometry_records.h"
+#include "real_time/geometry_buffer/visibility_records.h"
 #include "real_time/light_range/emitters.h"
 #include "real_time/light_range/range_records.h"
 #include "real_time/shading/shading_records.h"
@@ -35,10 +36,15 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Records {
   SlotRecord slots[2];
   MaterialRecord materials[2];
   SurfaceRecord surfaces[2];
+  MeshBounds mesh_bounds[2];
+  DrawRecord draws[2];
   TextureRecord textures[2];
   MeshRecord meshes[2];
   SceneRecord scenes[2];
   GeometryPush geometry_pushes[1];
+  DrawsPush draws_pushes[1];
+  VisibilityPush visibility_pushes[1];
+  ResolvePush resolve_pushes[1];
   ShadingPush shading_pushes[1];
 };
 layout(push_constant, scalar) uniform Push { Records records; };

@@ -3,71 +3,23 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
-#include <map>
 #include <string>
 
-#include "gpu/shader_code.h"
 #include "ray_tracing/hierarchy_records.h"
 #include "real_time/device_scene/scene_records.h"
 #include "real_time/filtering/filter_records.h"
 #include "real_time/geometry_buffer/geometry_records.h"
+#include "real_time/geometry_buffer/visibility_records.h"
 #include "real_time/light_range/emitters.h"
 #include "real_time/light_range/range_records.h"
 #include "real_time/shading/shading_records.h"
+#include "real_time/spirv_layouts.h"
 
 namespace luciole {
 
 extern const gpu::ShaderCode device_records;
 
 namespace {
-
-// What SPIR-V tells of structs ("Physical Layout of a SPIR-V Module and Instruction" of its specification).
-class Layouts {
- public:
-  explicit Layouts(const gpu::ShaderCode& code) {
-    const std::size_t words = code.bytes / 4;
-    for (std::size_t at = 5; at < words; at += code.words[at] >> 16) read(code.words + at);
-  }
-
-  // "struct.member" -> offset in bytes.
-  std::map<std::string, std::uint32_t> offsets() const {
-    std::map<std::string, std::uint32_t> result;
-    for (const auto& [key, offset] : offset_of_) {
-      const auto structure = name_of_.find(key.first);
-      const auto member = member_name_.find(key);
-      if (structure != name_of_.end() && member != member_name_.end()) {
-        result[structure->second + "." + member->second] = offset;
-      }
-    }
-    return result;
-  }
-
- private:
-  static std::string text(const std::uint32_t* words) { return reinterpret_cast<const char*>(words); }
-
-  void read(const std::uint32_t* instruction) {
-    constexpr std::uint32_t kName = 5, kMemberName = 6, kMemberDecorate = 72, kOffset = 35;
-    const std::uint32_t* const operands = instruction + 1;
-    switch (instruction[0] & 0xffffu) {
-      case kName:
-        name_of_[operands[0]] = text(operands + 1);
-        break;
-      case kMemberName:
-        member_name_[{operands[0], operands[1]}] = text(operands + 2);
-        break;
-      case kMemberDecorate:
-        if (operands[2] == kOffset) offset_of_[{operands[0], operands[1]}] = operands[3];
-        break;
-      default:
-        break;
-    }
-  }
-
-  using Member = std::pair<std::uint32_t, std::uint32_t>;  // id of the struct, place in it
-  std::map<std::uint32_t, std::string> name_of_;
-  std::map<Member, std::string> member_name_;
-  std::map<Member, std::uint32_t> offset_of_;
-};
 
 struct Expected {
   const char* member;
@@ -284,6 +236,30 @@ const Expected kMembers[] = {
     LUCIOLE_MEMBER(GeometryPush, pixel_size),
     LUCIOLE_MEMBER(GeometryPush, width),
     LUCIOLE_MEMBER(GeometryPush, height),
+    LUCIOLE_MEMBER(MeshBounds, low),
+    LUCIOLE_MEMBER(MeshBounds, high),
+    LUCIOLE_MEMBER(MeshBounds, triangles),
+    LUCIOLE_MEMBER(MeshBounds, has_holes),
+    LUCIOLE_MEMBER(DrawRecord, vertices),
+    LUCIOLE_MEMBER(DrawRecord, instances),
+    LUCIOLE_MEMBER(DrawRecord, first_vertex),
+    LUCIOLE_MEMBER(DrawRecord, mesh),
+    LUCIOLE_MEMBER(Projection, eye),
+    LUCIOLE_MEMBER(Projection, x),
+    LUCIOLE_MEMBER(Projection, y),
+    LUCIOLE_MEMBER(Projection, w),
+    LUCIOLE_MEMBER(Projection, near),
+    LUCIOLE_MEMBER(DrawsPush, bounds),
+    LUCIOLE_MEMBER(DrawsPush, draws),
+    LUCIOLE_MEMBER(DrawsPush, projection),
+    LUCIOLE_MEMBER(DrawsPush, meshes),
+    LUCIOLE_MEMBER(VisibilityPush, scene),
+    LUCIOLE_MEMBER(VisibilityPush, projection),
+    LUCIOLE_MEMBER(VisibilityPush, top_left),
+    LUCIOLE_MEMBER(VisibilityPush, across),
+    LUCIOLE_MEMBER(VisibilityPush, down),
+    LUCIOLE_MEMBER(ResolvePush, geometry),
+    LUCIOLE_MEMBER(ResolvePush, visibility),
 };
 
 // Arrays of two records follow each other in this order: where one begins, the sizes before it added up.
@@ -310,13 +286,15 @@ const Array kArrays[] = {{"diffuse_emitters", 2 * sizeof(DiffuseEmitter)},
                          {"hierarchy_triangles", 2 * sizeof(HierarchyTriangle)},
                          {"slots", 2 * sizeof(SlotRecord)},
                          {"materials", 2 * sizeof(MaterialRecord)},
-                         {"surfaces", 2 * sizeof(SurfaceRecord)}};
+                         {"surfaces", 2 * sizeof(SurfaceRecord)},
+                         {"mesh_bounds", 2 * sizeof(MeshBounds)},
+                         {"draws", 2 * sizeof(DrawRecord)}};
 
-const Array kArraysWithAddresses[] = {{"textures", 2 * sizeof(TextureRecord)},
-                                      {"meshes", 2 * sizeof(MeshRecord)},
-                                      {"scenes", 2 * sizeof(SceneRecord)},
-                                      {"geometry_pushes", sizeof(GeometryPush)},
-                                      {"shading_pushes", sizeof(ShadingPush)}};
+const Array kArraysWithAddresses[] = {
+    {"textures", 2 * sizeof(TextureRecord)}, {"meshes", 2 * sizeof(MeshRecord)},
+    {"scenes", 2 * sizeof(SceneRecord)},     {"geometry_pushes", sizeof(GeometryPush)},
+    {"draws_pushes", sizeof(DrawsPush)},     {"visibility_pushes", sizeof(VisibilityPush)},
+    {"resolve_pushes", sizeof(ResolvePush)}, {"shading_pushes", sizeof(ShadingPush)}};
 
 TEST(DeviceRecords, have_their_members_where_shaders_have_them) {
   const auto offsets = Layouts(device_records).offsets();

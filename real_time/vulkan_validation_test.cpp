@@ -2,7 +2,7 @@
 // A frame, and what the ray caster makes, under the validation layers: core, synchronisation and GPU-assisted checks.
 // By itself, as software Vulkan takes half a minute to compile kernels in which each access is checked.
 #include "gpu/test_device.h"
-#include "real_time/geometry_buffer/device_geometry_pass.h"
+#include "real_time/geometry_buffer/raster_geometry_pass.h"
 #include "real_time/vulkan_test_front.h"
 #include "scene/random_surfaces.h"
 
@@ -38,15 +38,21 @@ TEST(Validation, has_nothing_to_say_of_the_geometry_buffer) {
   ASSERT_TRUE(hierarchy.has_value());
   const DeviceView view{look_at(Vec3(0, 0, 4), Vec3(0, 0, 0), 1.2f), 70, 45};
   const Result<DeviceScene> placed = DeviceScene::create(*device, scene, *hierarchy);
-  const Result<DeviceGeometryPass> pass = DeviceGeometryPass::create(*device);
+  const Result<DeviceGeometryPass> cast = DeviceGeometryPass::create(*device);
+  const Result<RasterGeometryPass> drawn =
+      RasterGeometryPass::create(*device, view.width, view.height, placed->mesh_count());
   const Result<GeometryOnDevice> target = GeometryOnDevice::create(*device, view.width, view.height);
-  ASSERT_TRUE(placed.has_value() && pass.has_value() && target.has_value());
-  gpu::CommandList list = gpu::test::make_list(*device);
-  pass->record(list, *placed, view, *target);
-  ASSERT_TRUE(list.run().has_value());
-  GeometryBuffer seen;
-  ASSERT_TRUE(read_back(*device, *target, view, seen).has_value());
-  EXPECT_GT(std::count_if(seen.depth.begin(), seen.depth.end(), [](float depth) { return depth != kNoSurface; }), 500);
+  ASSERT_TRUE(placed.has_value() && cast.has_value() && drawn.has_value() && target.has_value());
+  for (const bool draw : {false, true, true}) {  // and once again into the same images
+    gpu::CommandList list = gpu::test::make_list(*device);
+    draw ? drawn->record(list, *placed, view, *target) : cast->record(list, *placed, view, *target);
+    const Status done = list.run();
+    ASSERT_TRUE(done.has_value()) << done.error().message;
+    GeometryBuffer seen;
+    ASSERT_TRUE(read_back(*device, *target, view, seen).has_value());
+    EXPECT_GT(std::count_if(seen.depth.begin(), seen.depth.end(), [](float depth) { return depth != kNoSurface; }),
+              500);
+  }
   const Status validated = device->validated();
   EXPECT_TRUE(validated.has_value()) << validated.error().message;
 }

@@ -54,6 +54,13 @@ struct MeshRecord {
   word_ unused;
 };
 
+// What is asked of a mesh before any of its triangles.
+struct MeshBounds {
+  float low[3], high[3];  // world [m]; low above high where there is no vertex
+  word_ triangles;
+  word_ has_holes;  // not 0: the alpha of a triangle's points decides whether they are there
+};
+
 struct SceneRecord {
   address_ nodes, triangles;  // HierarchyNode, HierarchyTriangle
   address_ meshes, materials, textures;
@@ -67,6 +74,7 @@ struct SceneRecord {
 #if defined(__cplusplus)
 static_assert(sizeof(TextureRecord) == 56 && sizeof(SlotRecord) == 32);
 static_assert(sizeof(MaterialRecord) == 208 && offsetof(MaterialRecord, base_colour) == 128);
+static_assert(sizeof(MeshBounds) == 32 && offsetof(MeshBounds, triangles) == 24);
 static_assert(sizeof(MeshRecord) == 64 && sizeof(SceneRecord) == 80 && offsetof(SceneRecord, root) == 56);
 #endif
 

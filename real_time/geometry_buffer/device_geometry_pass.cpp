@@ -58,8 +58,7 @@ Result<DeviceGeometryPass> DeviceGeometryPass::create(gpu::Device& device) {
   return pass;
 }
 
-void DeviceGeometryPass::record(gpu::CommandList& list, const DeviceScene& scene, const DeviceView& view,
-                                const GeometryOnDevice& to) const {
+GeometryPush geometry_push(const DeviceScene& scene, const DeviceView& view, const GeometryOnDevice& to) {
   const ScreenRays screen(view.camera, view.width, view.height, view.sub_pixel);
   GeometryPush push{};
   push.scene = scene.address(), push.pixels = to.pixels.address(), push.surfaces = to.surfaces.address();
@@ -68,10 +67,16 @@ void DeviceGeometryPass::record(gpu::CommandList& list, const DeviceScene& scene
   copy(screen.across, push.across), copy(screen.down, push.down);
   push.pixel_size = screen.pixel_size;
   push.width = view.width, push.height = view.height;
+  return push;
+}
+
+void DeviceGeometryPass::record(gpu::CommandList& list, const DeviceScene& scene, const DeviceView& view,
+                                const GeometryOnDevice& to) const {
   list.begin_pass("geometry_buffer");
   list.fill(to.unfinished, 0);
   list.barrier();
-  list.dispatch(kernel_, push, (view.width + kGroup - 1) / kGroup, (view.height + kGroup - 1) / kGroup);
+  list.dispatch(kernel_, geometry_push(scene, view, to), (view.width + kGroup - 1) / kGroup,
+                (view.height + kGroup - 1) / kGroup);
 }
 
 Status read_back(gpu::Device& device, const GeometryOnDevice& from, const DeviceView& view, GeometryBuffer& to) {
