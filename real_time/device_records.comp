@@ -9,6 +9,8 @@
 #include "ray_tracing/hierarchy_records.h"
 #include "real_time/device_scene/scene_records.h"
 #include "real_time/geometry_buffer/geometry_records.h"
+#include "real_time/light_culling/list_records.h"
+#include "real_time/light_culling/sphere_proxy.h"
 #include "real_time/light_range/emitters.h"
 #include "real_time/light_range/range_records.h"
 #include "real_time/shading/shading_records.h"
@@ -35,11 +37,18 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Records {
   SlotRecord slots[2];
   MaterialRecord materials[2];
   SurfaceRecord surfaces[2];
+  IcosahedronProxy icosahedra[2];
+  GeodesicProxy geodesics[2];
+  SplatCell splat_cells[2];
+  PartCounts part_counts[2];
   TextureRecord textures[2];
   MeshRecord meshes[2];
   SceneRecord scenes[2];
   GeometryPush geometry_pushes[1];
   ShadingPush shading_pushes[1];
+  PartPush part_pushes[1];
+  MarkPush mark_pushes[1];
+  ListShadingPush list_shading_pushes[1];
 };
 layout(push_constant, scalar) uniform Push { Records records; };
 

@@ -11,6 +11,8 @@
 #include "real_time/device_scene/scene_records.h"
 #include "real_time/filtering/filter_records.h"
 #include "real_time/geometry_buffer/geometry_records.h"
+#include "real_time/light_culling/list_records.h"
+#include "real_time/light_culling/sphere_proxy.h"
 #include "real_time/light_range/emitters.h"
 #include "real_time/light_range/range_records.h"
 #include "real_time/shading/shading_records.h"
@@ -200,6 +202,64 @@ const Expected kMembers[] = {
     LUCIOLE_MEMBER(ShadingPush, shift),
     LUCIOLE_MEMBER(ShadingPush, first_light),
     LUCIOLE_MEMBER(ShadingPush, light_count),
+    LUCIOLE_MEMBER(IcosahedronProxy, vertex),
+    LUCIOLE_MEMBER(IcosahedronProxy, edge_from),
+    LUCIOLE_MEMBER(IcosahedronProxy, edge_to),
+    LUCIOLE_MEMBER(IcosahedronProxy, slab_normal),
+    LUCIOLE_MEMBER(IcosahedronProxy, distance),
+    LUCIOLE_MEMBER(GeodesicProxy, corner),
+    LUCIOLE_MEMBER(GeodesicProxy, normal),
+    LUCIOLE_MEMBER(GeodesicProxy, distance),
+    LUCIOLE_MEMBER(SplatCell, x),
+    LUCIOLE_MEMBER(SplatCell, y),
+    LUCIOLE_MEMBER(SplatCell, depth),
+    LUCIOLE_MEMBER(SplatCell, nearest),
+    LUCIOLE_MEMBER(PartCounts, pixels),
+    LUCIOLE_MEMBER(PartCounts, listed),
+    LUCIOLE_MEMBER(PartCounts, pairs),
+    LUCIOLE_MEMBER(PartCounts, accepted),
+    LUCIOLE_MEMBER(PartCounts, tests),
+    LUCIOLE_MEMBER(PartPush, pixels),
+    LUCIOLE_MEMBER(PartPush, depths),
+    LUCIOLE_MEMBER(PartPush, occupied),
+    LUCIOLE_MEMBER(PartPush, cells),
+    LUCIOLE_MEMBER(PartPush, eye),
+    LUCIOLE_MEMBER(PartPush, right),
+    LUCIOLE_MEMBER(PartPush, up),
+    LUCIOLE_MEMBER(PartPush, width),
+    LUCIOLE_MEMBER(PartPush, height),
+    LUCIOLE_MEMBER(PartPush, interleave),
+    LUCIOLE_MEMBER(MarkPush, bounds),
+    LUCIOLE_MEMBER(MarkPush, subsets),
+    LUCIOLE_MEMBER(MarkPush, depths),
+    LUCIOLE_MEMBER(MarkPush, occupied),
+    LUCIOLE_MEMBER(MarkPush, cells),
+    LUCIOLE_MEMBER(MarkPush, proxy),
+    LUCIOLE_MEMBER(MarkPush, lists),
+    LUCIOLE_MEMBER(MarkPush, covering),
+    LUCIOLE_MEMBER(MarkPush, counts),
+    LUCIOLE_MEMBER(MarkPush, pixel),
+    LUCIOLE_MEMBER(MarkPush, width),
+    LUCIOLE_MEMBER(MarkPush, height),
+    LUCIOLE_MEMBER(MarkPush, interleave),
+    LUCIOLE_MEMBER(MarkPush, shift),
+    LUCIOLE_MEMBER(MarkPush, first_light),
+    LUCIOLE_MEMBER(MarkPush, words),
+    LUCIOLE_MEMBER(ListShadingPush, pixels),
+    LUCIOLE_MEMBER(ListShadingPush, emitters),
+    LUCIOLE_MEMBER(ListShadingPush, subsets),
+    LUCIOLE_MEMBER(ListShadingPush, sums),
+    LUCIOLE_MEMBER(ListShadingPush, depths),
+    LUCIOLE_MEMBER(ListShadingPush, lists),
+    LUCIOLE_MEMBER(ListShadingPush, covering),
+    LUCIOLE_MEMBER(ListShadingPush, counts),
+    LUCIOLE_MEMBER(ListShadingPush, eye),
+    LUCIOLE_MEMBER(ListShadingPush, width),
+    LUCIOLE_MEMBER(ListShadingPush, height),
+    LUCIOLE_MEMBER(ListShadingPush, interleave),
+    LUCIOLE_MEMBER(ListShadingPush, shift),
+    LUCIOLE_MEMBER(ListShadingPush, first_light),
+    LUCIOLE_MEMBER(ListShadingPush, words),
     LUCIOLE_MEMBER(HierarchyNode, low_x),
     LUCIOLE_MEMBER(HierarchyNode, low_y),
     LUCIOLE_MEMBER(HierarchyNode, low_z),
@@ -310,13 +370,17 @@ const Array kArrays[] = {{"diffuse_emitters", 2 * sizeof(DiffuseEmitter)},
                          {"hierarchy_triangles", 2 * sizeof(HierarchyTriangle)},
                          {"slots", 2 * sizeof(SlotRecord)},
                          {"materials", 2 * sizeof(MaterialRecord)},
-                         {"surfaces", 2 * sizeof(SurfaceRecord)}};
+                         {"surfaces", 2 * sizeof(SurfaceRecord)},
+                         {"icosahedra", 2 * sizeof(IcosahedronProxy)},
+                         {"geodesics", 2 * sizeof(GeodesicProxy)},
+                         {"splat_cells", 2 * sizeof(SplatCell)},
+                         {"part_counts", 2 * sizeof(PartCounts)}};
 
-const Array kArraysWithAddresses[] = {{"textures", 2 * sizeof(TextureRecord)},
-                                      {"meshes", 2 * sizeof(MeshRecord)},
-                                      {"scenes", 2 * sizeof(SceneRecord)},
-                                      {"geometry_pushes", sizeof(GeometryPush)},
-                                      {"shading_pushes", sizeof(ShadingPush)}};
+const Array kArraysWithAddresses[] = {
+    {"textures", 2 * sizeof(TextureRecord)}, {"meshes", 2 * sizeof(MeshRecord)},
+    {"scenes", 2 * sizeof(SceneRecord)},     {"geometry_pushes", sizeof(GeometryPush)},
+    {"shading_pushes", sizeof(ShadingPush)}, {"part_pushes", sizeof(PartPush)},
+    {"mark_pushes", sizeof(MarkPush)},       {"list_shading_pushes", sizeof(ListShadingPush)}};
 
 TEST(DeviceRecords, have_their_members_where_shaders_have_them) {
   const auto offsets = Layouts(device_records).offsets();

@@ -3,6 +3,7 @@
 // By itself, as software Vulkan takes half a minute to compile kernels in which each access is checked.
 #include "gpu/test_device.h"
 #include "real_time/geometry_buffer/device_geometry_pass.h"
+#include "real_time/shading/list_test_stage.h"
 #include "real_time/vulkan_test_front.h"
 #include "scene/random_surfaces.h"
 
@@ -49,6 +50,22 @@ TEST(Validation, has_nothing_to_say_of_the_geometry_buffer) {
   EXPECT_GT(std::count_if(seen.depth.begin(), seen.depth.end(), [](float depth) { return depth != kNoSurface; }), 500);
   const Status validated = device->validated();
   EXPECT_TRUE(validated.has_value()) << validated.error().message;
+}
+
+TEST(Validation, has_nothing_to_say_of_the_rivals_of_tiled_culling) {
+  for (const Culling culling : {Culling::clustered, Culling::splatting}) {
+    Settings settings = small_settings();
+    settings.culling = culling;
+    gpu::DeviceRequest request;
+    request.validation = true;
+    const ListStage stage("recipe:lights?count=500", settings, request);
+    for (const LightKind kind : {kDiffuseLights, kGlossyLights, kManyLights}) {
+      ASSERT_GT(stage.longest(kind), 0u);
+      EXPECT_EQ(stage.shade_lists(stage.make_pass(stage.longest(kind)), kind).parts.size(), stage.tiles());
+    }
+    const Status validated = stage.device->validated();
+    EXPECT_TRUE(validated.has_value()) << validated.error().message;
+  }
 }
 
 }  // namespace

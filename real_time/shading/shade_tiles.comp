@@ -11,9 +11,7 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "equations/exact_tile_test.h"
-#include "equations/light_emission.h"
 #include "equations/paper_tile_test.h"
-#include "real_time/light_range/emitters.h"
 #include "real_time/shading/shading_records.h"
 
 const uint kThreads = 256u;
@@ -24,21 +22,15 @@ layout(constant_id = 1) const uint kTileTest = 2u;   // TileTest: 0 paper, 1 exa
 layout(constant_id = 2) const uint kCulled = 1u;     // 0: every light at every pixel
 layout(constant_id = 3) const uint kDivideByP = 1u;  // 0: clamped and infinite ranges
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pixels { PixelRecord value[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer DiffuseEmitters { DiffuseEmitter value[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer GlossyEmitters { GlossyEmitter value[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ManyEmitters { ManyEmitter value[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Bounds { BoundBlock block[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Subsets { SubsetRange value[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Sums { PixelSums value[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Counts { TileCounts value[]; };
 layout(push_constant, scalar) uniform Push { ShadingPush push; };
+#include "real_time/light_range/bounds.glsl"
+#include "real_time/shading/pixel_sums.glsl"
 
 shared uint listed[2][kBatch];  // per half: lights, counted from the subset's first
 shared float scratch[kThreads / 4u];  // one per subgroup; none has fewer than 4 invocations
 shared uint hits[kThreads / 4u];
-
-vec3 vector(float v[3]) { return vec3(v[0], v[1], v[2]); }
 
 // This invocation's place in the workgroup: subgroups one after the other, which ballots count on.
 uint thread() { return gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID; }
@@ -65,28 +57,6 @@ uint tile_sum(uint value) {
   return sum;
 }
 
-struct TilePixel {
-  PixelRecord record;
-  uint index;  // on the screen
-  bool is_surface;
-  vec3 view;  // right, up, forward [m]
-};
-
-// Pixels in the order of 4x4 cells, so that a subgroup's are neighbours.
-TilePixel read_pixel() {
-  const uint i = thread(), n = push.interleave, region = gl_WorkGroupID.z;
-  const uint tile_x = (i / 16u % 4u) * 4u + i % 4u, tile_y = (i / 64u) * 4u + i / 4u % 4u;
-  const uint x = (gl_WorkGroupID.x * 16u + tile_x) * n + region % n;
-  const uint y = (gl_WorkGroupID.y * 16u + tile_y) * n + region / n;
-  TilePixel pixel;
-  pixel.index = min(y, push.height - 1u) * push.width + min(x, push.width - 1u);
-  pixel.record = Pixels(push.pixels).value[pixel.index];
-  pixel.is_surface = x < push.width && y < push.height && !isinf(pixel.record.depth);
-  const vec3 p = vector(pixel.record.position) - vector(push.eye);
-  pixel.view = vec3(dot(p, vector(push.right)), dot(p, vector(push.up)), pixel.record.depth);
-  return pixel;
-}
-
 struct TileHalves {
   Tile tile;
   uint half_of_pixel;  // 0 near, 1 far
@@ -94,8 +64,8 @@ struct TileHalves {
 };
 
 // Slopes are widened by a few units in the last place, as they bound rounded quotients; those of both halves are one.
-TileHalves halve(TilePixel pixel) {
-  const float huge = 3e38, depth = pixel.view.z;
+TileHalves halve(TilePixel pixel, vec3 view) {
+  const float huge = 3e38, depth = view.z;
   const bool s = pixel.is_surface;
   const float nearest = tile_min(s ? depth : huge), farthest = tile_max(s ? depth : -huge);
   const float middle = 0.5 * (nearest + farthest);
@@ -105,7 +75,7 @@ TileHalves halve(TilePixel pixel) {
   const uint both = tile_sum((in_near ? 1u : 0u) + (in_far ? 0x10000u : 0u));
   h.pixels[0] = both & 0xffffu;
   h.pixels[1] = both >> 16u;
-  const float x = pixel.view.x / depth, y = pixel.view.y / depth;
+  const float x = view.x / depth, y = view.y / depth;
   const float margin_x = 1e-6 * (1.0 + abs(x)), margin_y = 1e-6 * (1.0 + abs(y));
   h.tile.x_low = tile_min(s ? x - margin_x : huge);
   h.tile.x_high = tile_max(s ? x + margin_x : -huge);
@@ -117,26 +87,6 @@ TileHalves halve(TilePixel pixel) {
   h.tile.far_low = h.pixels[1] > 0u ? tile_min(in_far ? depth * (1.0 - 1e-6) : huge) : 1.0;
   h.tile.far_high = h.pixels[1] > 0u ? farthest * (1.0 + 1e-6) : 0.0;
   return h;
-}
-
-float bound_row(uint entry, int row) { return Bounds(push.bounds).block[entry / 16u].row[row][entry % 16u]; }
-vec3 bound_rows(uint entry, int row) {
-  return vec3(bound_row(entry, row), bound_row(entry, row + 1), bound_row(entry, row + 2));
-}
-
-TileTestEllipsoid load_ellipsoid(uint entry) {
-  const vec3 m0 = bound_rows(entry, kM00), m1 = bound_rows(entry, kM11), s = bound_rows(entry, kSxx);
-  TileTestEllipsoid t;
-  t.factor = TriangularFactor(m0.x, m0.y, m0.z, m1.x, m1.y, m1.z);
-  t.stretched = bound_rows(entry, kStretchedX);
-  t.centre = bound_rows(entry, kCentreX);
-  t.sxx = s.x;
-  t.sxz = s.y;
-  t.syy = s.z;
-  t.syz = bound_row(entry, kSyz);
-  t.szz = bound_row(entry, kSzz);
-  t.surface = SurfacePlane(bound_rows(entry, kNormalX), bound_row(entry, kNormalOffset));
-  return t;
 }
 
 PaperTestEllipsoid load_paper_ellipsoid(uint entry) {
@@ -176,107 +126,6 @@ void append_lights(uint light, bool near_hit, bool far_hit, inout uint counts[2]
   barrier();
 }
 
-Emitted emit(DiffuseEmitter light, vec3 from_light) {
-  FixedDirectionBrdf f;
-  f.normal = vector(light.normal);
-  f.fixed_direction = vector(light.incident);
-  f.f0 = vec3(0.0);
-  f.f0_max = light.f0_max;
-  f.f90 = light.f90;
-  f.alpha_sq = f.cos_fixed = f.masking = 0.0;
-  return emitted_by_diffuse_lobe(f, vector(light.geometric_normal), vector(light.intensity), light.probability_scale,
-                                 from_light);
-}
-
-Emitted emit(GlossyEmitter light, vec3 from_light) {
-  FixedDirectionBrdf f;
-  f.normal = vector(light.normal);
-  f.fixed_direction = vector(light.incident);
-  f.f0 = vector(light.f0);
-  f.f90 = light.f90;
-  f.f0_max = 0.0;
-  f.alpha_sq = light.alpha_sq;
-  f.cos_fixed = light.cos_incident;
-  f.masking = light.masking;
-  return emitted_by_glossy_lobe(f, vector(light.geometric_normal), vector(light.flux), light.probability_scale,
-                                from_light);
-}
-
-Emitted emit(ManyEmitter light, vec3 from_light) {
-  const AxialEmission a =
-      AxialEmission(vector(light.axis), light.scale, light.offset, light.two_sided, light.squared);
-  return emitted_along_axis(a, vector(light.intensity), light.probability_scale, from_light);
-}
-
-struct ShadedPixel {
-  vec3 position, geometric_normal;
-  FixedDirectionBrdf brdf;
-  vec3 diffuse, specular;
-  uint accepted;
-};
-
-ShadedPixel start_pixel(PixelRecord record) {
-  SurfaceBrdf surface;
-  surface.diffuse_albedo = vec3(0.0);
-  surface.f0 = vector(record.f0);
-  surface.f90 = record.f90;
-  surface.ggx_alpha = record.ggx_alpha;
-  ShadedPixel pixel;
-  pixel.position = vector(record.position);
-  pixel.geometric_normal = vector(record.geometric_normal);
-  pixel.brdf = fix_direction(surface, vector(record.normal), normalize(vector(push.eye) - pixel.position));
-  pixel.diffuse = pixel.specular = vec3(0.0);
-  pixel.accepted = 0u;
-  return pixel;
-}
-
-// [TH17] Eqs. 2 and 3. A function of the emitter's type would be one per kind: this is the text of all three.
-#define ADD_LIGHT(light)                                                              \
-  {                                                                                   \
-    const vec3 d = vector(light.position) - pixel.position;                           \
-    const float distance_sq = dot(d, d);                                              \
-    const vec3 to_light = d * inverse_sqrt(max(distance_sq, 1e-30));                  \
-    const Emitted e = emit(light, -to_light);                                         \
-    const float l_sq = distance_sq + light.disc;                                      \
-    if (emission_is_accepted(e, l_sq, light.xi)) add_accepted(pixel, e, to_light, l_sq); \
-  }
-
-void add_accepted(inout ShadedPixel pixel, Emitted e, vec3 to_light, float l_sq) {
-  ++pixel.accepted;
-  if (!(dot(pixel.geometric_normal, to_light) > 0.0)) return;
-  const float weight = kDivideByP != 0u ? fall_off_over_probability(e, l_sq) : inverse(l_sq);
-  const vec3 arriving = e.colour * (e.factor * weight);
-  const Reflection r = reflection(pixel.brdf, to_light);
-  pixel.diffuse += arriving * r.diffuse;
-  pixel.specular += arriving * r.specular;
-}
-
-void add_light(inout ShadedPixel pixel, uint entry) {
-  if (kKind == 0u) {
-    const DiffuseEmitter light = DiffuseEmitters(push.emitters).value[entry];
-    ADD_LIGHT(light)
-  } else if (kKind == 1u) {
-    const GlossyEmitter light = GlossyEmitters(push.emitters).value[entry];
-    ADD_LIGHT(light)
-  } else {
-    const ManyEmitter light = ManyEmitters(push.emitters).value[entry];
-    ADD_LIGHT(light)
-  }
-}
-
-void write_sums(TilePixel pixel, ShadedPixel shaded, uint lights) {
-  PixelSums sums;
-  sums.diffuse = float[3](shaded.diffuse.x, shaded.diffuse.y, shaded.diffuse.z);
-  sums.specular = float[3](shaded.specular.x, shaded.specular.y, shaded.specular.z);
-  sums.listed = lights;
-  sums.accepted = shaded.accepted;
-  if (push.first_light > 0u) {
-    sums.listed += Sums(push.sums).value[pixel.index].listed;
-    sums.accepted += Sums(push.sums).value[pixel.index].accepted;
-  }
-  if (pixel.is_surface) Sums(push.sums).value[pixel.index] = sums;
-}
-
 // asked: lights of the subset that were asked, those of earlier parts with them.
 void write_counts(TileHalves halves, uint lists[2], uint accepted, uint asked) {
   const uint tile =
@@ -293,14 +142,12 @@ void write_counts(TileHalves halves, uint lists[2], uint accepted, uint asked) {
 }
 
 void main() {
-  const TilePixel pixel = read_pixel();
-  const TileHalves halves = halve(pixel);
+  const TilePixel pixel = read_pixel(thread());
+  const vec3 view = view_of(pixel, push.eye, push.right, push.up);
+  const TileHalves halves = halve(pixel, view);
   uint lights_of_half[2] = uint[2](0u, 0u);
   ShadedPixel shaded = start_pixel(pixel.record);
-  if (push.first_light > 0u && pixel.is_surface) {
-    shaded.diffuse = vector(Sums(push.sums).value[pixel.index].diffuse);
-    shaded.specular = vector(Sums(push.sums).value[pixel.index].specular);
-  }
+  if (push.first_light > 0u && pixel.is_surface) take_earlier_sums(shaded, pixel.index);
   const uint subsets = push.interleave * push.interleave;
   const SubsetRange subset = Subsets(push.subsets).value[(gl_WorkGroupID.z + push.shift) % subsets];
   const uint end = min(subset.count, push.first_light + push.light_count);
