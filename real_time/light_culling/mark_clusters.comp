@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conservative rasterisation of icosahedra at the resolution of tiles: a light per workgroup, an edge of its proxy per
-// invocation. The text follows cluster_kernel.cpp, which says why the depths that are visited are enough; a workgroup
+// Conservative rasterisation of icosahedra at the resolution of tiles: a light and 32 rows of tiles per workgroup, an
+// edge of the light's proxy per invocation. The text follows cluster_kernel.cpp, which says why the depths that are visited are enough; a workgroup
 // keeps those of 16x16 tiles at a time. Bits are set by atomics, so that the order of lights does not show.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -15,6 +15,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pro
 const uint kThreads = 32u, kVertices = 12u, kEdges = 30u, kSlabs = 10u;
 const float kOverlap = 1.0 / 64.0;  // as cluster_kernel.cpp
 const int kSide = 16;               // tiles along a side of a block
+const int kRowsOfGroup = 32;        // of tiles: what bounds the loops of an invocation
 
 shared int column_begin, column_end, row_begin, row_end;  // tiles that the proxy may cover
 shared uint low[kSide * kSide], high[kSide * kSide];      // depths of the proxy in a block's tiles, their bits
@@ -203,14 +204,16 @@ void main() {
   if (gl_LocalInvocationIndex == 0u) {
     column_begin = row_begin = 0x7fffffff;
     column_end = row_end = 0;
-    atomicAdd(Counts(push.counts).value[tile_at(band, 0, 0)].tests, 2u * kSlabs);
+    if (gl_WorkGroupID.z == 0u) atomicAdd(Counts(push.counts).value[tile_at(band, 0, 0)].tests, 2u * kSlabs);
   }
   barrier();
   const vec3 corner = vertex(light), from = edge_end(light, false), to = edge_end(light, true);
   find_rectangle(band, corner, from, to);
   barrier();
-  const int last_column = min(column_end, band.columns), last_row = min(row_end, band.rows);
-  for (int row = max(row_begin, 0); row < last_row; row += kSide) {
+  const int first_row = int(gl_WorkGroupID.z) * kRowsOfGroup;
+  const int last_column = min(column_end, band.columns);
+  const int last_row = min(min(row_end, band.rows), first_row + kRowsOfGroup);
+  for (int row = max(row_begin, first_row); row < last_row; row += kSide) {
     for (int column = max(column_begin, 0); column < last_column; column += kSide) {
       const Block block = Block(column, min(column + kSide, last_column), row, min(row + kSide, last_row));
       list_in_block(light, band, block, corner, from, to);

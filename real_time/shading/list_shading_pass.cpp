@@ -22,7 +22,8 @@ namespace {
 constexpr std::uint64_t kMostBytes = std::uint64_t(64) << 20;
 constexpr std::uint32_t kMostWords = 32;
 
-constexpr std::uint32_t kRowsOfGroup = 4;  // of tiles, of mark_splats.comp
+// Rows of tiles that a workgroup of mark_clusters.comp and of mark_splats.comp takes.
+constexpr std::uint32_t kRowsOfClusters = 32, kRowsOfSplats = 4;
 
 void copy(Vec3 from, float (&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
 
@@ -128,7 +129,8 @@ void ListShadingPass::record_lists(gpu::CommandList& list, const ShadingBuffers&
   list.fill(lists_, 0);
   list.fill(covering_, 0);
   list.barrier();
-  list.dispatch(mark_, push, part.count, grid.regions, clusters_ ? 1 : (grid.rows + kRowsOfGroup - 1) / kRowsOfGroup);
+  const std::uint32_t rows = clusters_ ? kRowsOfClusters : kRowsOfSplats;
+  list.dispatch(mark_, push, part.count, grid.regions, (grid.rows + rows - 1) / rows);
   list.barrier();
 }
 
