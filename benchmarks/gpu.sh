@@ -5,7 +5,8 @@
 #                     [--store FOLDER] [SHOT ...]
 # Builds into $BUILD (default: build). Shots: sponza, sibenik and gallery where $LUCIOLE_SCENES names the scenes' folder,
 # else gallery. Pictures of the CPU engine are kept in FOLDER (default: out/gpu) and made where they are missing. Writes
-# docs/results/CHIP/culling_and_shading.md. With the device's peak rates it says how far from its floors each time is.
+# docs/results/CHIP/culling_and_shading.md, which with the device's peak rates says how far from its floors each time is,
+# and, for the first of the counts, shading_variants.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${BUILD:-build} device='' size=1920x1080 vpls=65536,1048576 frames=50 peak='' store=out/gpu shots=()
@@ -37,7 +38,7 @@ fi
 # shellcheck source=benchmarks/statistics.sh
 source benchmarks/statistics.sh
 [[ -f $build/build.ninja ]] || cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DLUCIOLE_TESTS=OFF
-cmake --build "$build" --target luciole operations_benchmark > /dev/null
+cmake --build "$build" --target luciole operations_benchmark shading_variants_benchmark > /dev/null
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$store"
@@ -140,3 +141,6 @@ TEXT
 } > "$work/page.md"
 mv "$work/page.md" "$folder/culling_and_shading.md"
 echo "$folder/culling_and_shading.md"
+"$build/benchmarks/shading_variants_benchmark" "$device" "$size" "${vpls%%,*}" "$frames" "${shots[@]}" > "$work/variants.md"
+mv "$work/variants.md" "$folder/shading_variants.md"
+echo "$folder/shading_variants.md"

@@ -37,6 +37,7 @@ Status Device::open(VkPhysicalDevice physical) {
   auto in_1_2 = of_type<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
   in_1_2.pNext = &in_1_3;
   in_1_2.bufferDeviceAddress = in_1_2.scalarBlockLayout = VK_TRUE;
+  in_1_2.shaderFloat16 = description_.half_floats ? VK_TRUE : VK_FALSE;
   auto features = of_type<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
   features.pNext = &in_1_2;
   features.features.shaderInt64 = VK_TRUE;

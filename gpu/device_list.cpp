@@ -37,7 +37,7 @@ std::uint64_t largest_own_heap(VkPhysicalDevice device) {
   return largest;
 }
 
-void note_missing_features(VkPhysicalDevice device, std::vector<std::string>& missing) {
+void note_features(VkPhysicalDevice device, DeviceDescription& description) {
   auto in_1_3 = of_type<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
   auto in_1_2 = of_type<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
   auto features = of_type<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
@@ -45,7 +45,7 @@ void note_missing_features(VkPhysicalDevice device, std::vector<std::string>& mi
   in_1_2.pNext = &in_1_3;
   vkGetPhysicalDeviceFeatures2(device, &features);
   const auto need = [&](VkBool32 there, const char* name) {
-    if (!there) missing.emplace_back(name);
+    if (!there) description.missing.emplace_back(name);
   };
   need(features.features.shaderInt64, "shaderInt64");
   need(in_1_2.bufferDeviceAddress, "bufferDeviceAddress");
@@ -53,6 +53,7 @@ void note_missing_features(VkPhysicalDevice device, std::vector<std::string>& mi
   need(in_1_3.computeFullSubgroups, "computeFullSubgroups");
   need(in_1_3.synchronization2, "synchronization2");
   need(in_1_3.maintenance4, "maintenance4");
+  description.half_floats = in_1_2.shaderFloat16 == VK_TRUE;
 }
 
 void note_missing_abilities(VkPhysicalDevice device, const VkPhysicalDeviceSubgroupProperties& subgroups,
@@ -83,12 +84,13 @@ DeviceDescription describe(VkPhysicalDevice device) {
   d.driver = std::string(driver.driverName) + " " + driver.driverInfo;
   d.kind = kind_of(properties.properties.deviceType);
   d.subgroup_size = subgroups.subgroupSize;
+  d.shuffles = (subgroups.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT) != 0;
   d.memory_bytes = largest_own_heap(device);
   if (properties.properties.apiVersion < VK_API_VERSION_1_3) {
     d.missing.emplace_back("Vulkan 1.3");
     return d;  // it may not be asked for what 1.3 brought
   }
-  note_missing_features(device, d.missing);
+  note_features(device, d);
   note_missing_abilities(device, subgroups, properties.properties.limits, d.missing);
   return d;
 }

@@ -28,6 +28,8 @@ struct DeviceDescription {
   std::uint32_t subgroup_size = 0;
   std::uint64_t memory_bytes = 0;    // largest heap of its own
   std::vector<std::string> missing;  // what the engine needs and the device lacks
+  bool half_floats = false;          // kernels may compute with floats of 16 bits
+  bool shuffles = false;             // an invocation may read any other's value within its subgroup
 };
 
 // In the order in which Vulkan lists them: a device's place is its index.
