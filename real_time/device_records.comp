@@ -5,6 +5,8 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#include "real_time/composition/composition_records.h"
+#include "real_time/filtering/accumulation_records.h"
 #include "real_time/filtering/filter_records.h"
 #include "ray_tracing/hierarchy_records.h"
 #include "real_time/device_scene/scene_records.h"
@@ -26,6 +28,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Records {
   FilterPush filter_pushes[1];
   PixelLight pixel_lights[2];
   FilterCounts filter_counts[2];
+  PixelColour pixel_colours[2];
+  CompositionCounts composition_counts[2];
+  PastSurfaceRecord past_surfaces[2];
+  AccumulationCounts accumulation_counts[2];
   PixelRecord pixels[2];
   PixelSums pixel_sums[2];
   TileCounts tile_counts[2];
@@ -40,6 +46,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Records {
   SceneRecord scenes[2];
   GeometryPush geometry_pushes[1];
   ShadingPush shading_pushes[1];
+  CompositionPush composition_pushes[1];
+  ToneCurvePush tone_curve_pushes[1];
+  AccumulationFrame accumulation_frames[2];
+  AccumulationPush accumulation_pushes[1];
 };
 layout(push_constant, scalar) uniform Push { Records records; };
 

@@ -8,7 +8,9 @@
 
 #include "gpu/shader_code.h"
 #include "ray_tracing/hierarchy_records.h"
+#include "real_time/composition/composition_records.h"
 #include "real_time/device_scene/scene_records.h"
+#include "real_time/filtering/accumulation_records.h"
 #include "real_time/filtering/filter_records.h"
 #include "real_time/geometry_buffer/geometry_records.h"
 #include "real_time/light_range/emitters.h"
@@ -284,6 +286,64 @@ const Expected kMembers[] = {
     LUCIOLE_MEMBER(GeometryPush, pixel_size),
     LUCIOLE_MEMBER(GeometryPush, width),
     LUCIOLE_MEMBER(GeometryPush, height),
+    LUCIOLE_MEMBER(CompositionCounts, not_finite),
+    LUCIOLE_MEMBER(CompositionPush, pixels),
+    LUCIOLE_MEMBER(CompositionPush, surfaces),
+    LUCIOLE_MEMBER(CompositionPush, direct),
+    LUCIOLE_MEMBER(CompositionPush, indirect),
+    LUCIOLE_MEMBER(CompositionPush, many),
+    LUCIOLE_MEMBER(CompositionPush, sums),
+    LUCIOLE_MEMBER(CompositionPush, more_sums),
+    LUCIOLE_MEMBER(CompositionPush, many_sums),
+    LUCIOLE_MEMBER(CompositionPush, picture),
+    LUCIOLE_MEMBER(CompositionPush, counts),
+    LUCIOLE_MEMBER(CompositionPush, weight),
+    LUCIOLE_MEMBER(CompositionPush, width),
+    LUCIOLE_MEMBER(CompositionPush, height),
+    LUCIOLE_MEMBER(CompositionPush, with_emission),
+    LUCIOLE_MEMBER(ToneCurvePush, picture),
+    LUCIOLE_MEMBER(ToneCurvePush, codes),
+    LUCIOLE_MEMBER(ToneCurvePush, edges),
+    LUCIOLE_MEMBER(ToneCurvePush, exposure),
+    LUCIOLE_MEMBER(ToneCurvePush, curve),
+    LUCIOLE_MEMBER(ToneCurvePush, width),
+    LUCIOLE_MEMBER(ToneCurvePush, height),
+    LUCIOLE_MEMBER(PixelColour, rgb),
+    LUCIOLE_MEMBER(PastSurfaceRecord, position),
+    LUCIOLE_MEMBER(PastSurfaceRecord, diffuse_frames),
+    LUCIOLE_MEMBER(PastSurfaceRecord, normal),
+    LUCIOLE_MEMBER(PastSurfaceRecord, specular_frames),
+    LUCIOLE_MEMBER(PastSurfaceRecord, geometric_normal),
+    LUCIOLE_MEMBER(PastSurfaceRecord, material),
+    LUCIOLE_MEMBER(AccumulationCounts, not_finite),
+    LUCIOLE_MEMBER(AccumulationCounts, many_not_finite),
+    LUCIOLE_MEMBER(AccumulationFrame, pixels),
+    LUCIOLE_MEMBER(AccumulationFrame, surfaces),
+    LUCIOLE_MEMBER(AccumulationFrame, sums),
+    LUCIOLE_MEMBER(AccumulationFrame, more_sums),
+    LUCIOLE_MEMBER(AccumulationFrame, many_sums),
+    LUCIOLE_MEMBER(AccumulationFrame, past_surfaces),
+    LUCIOLE_MEMBER(AccumulationFrame, past_indirect),
+    LUCIOLE_MEMBER(AccumulationFrame, past_many),
+    LUCIOLE_MEMBER(AccumulationFrame, present_surfaces),
+    LUCIOLE_MEMBER(AccumulationFrame, present_indirect),
+    LUCIOLE_MEMBER(AccumulationFrame, present_many),
+    LUCIOLE_MEMBER(AccumulationFrame, frames),
+    LUCIOLE_MEMBER(AccumulationFrame, counts),
+    LUCIOLE_MEMBER(AccumulationFrame, eye),
+    LUCIOLE_MEMBER(AccumulationFrame, past_eye),
+    LUCIOLE_MEMBER(AccumulationFrame, past_right),
+    LUCIOLE_MEMBER(AccumulationFrame, past_up),
+    LUCIOLE_MEMBER(AccumulationFrame, past_forward),
+    LUCIOLE_MEMBER(AccumulationFrame, past_pixel_size),
+    LUCIOLE_MEMBER(AccumulationFrame, past_sub_pixel_x),
+    LUCIOLE_MEMBER(AccumulationFrame, past_sub_pixel_y),
+    LUCIOLE_MEMBER(AccumulationFrame, way_back),
+    LUCIOLE_MEMBER(AccumulationFrame, weight),
+    LUCIOLE_MEMBER(AccumulationFrame, most),
+    LUCIOLE_MEMBER(AccumulationFrame, width),
+    LUCIOLE_MEMBER(AccumulationFrame, height),
+    LUCIOLE_MEMBER(AccumulationPush, frame),
 };
 
 // Arrays of two records follow each other in this order: where one begins, the sizes before it added up.
@@ -302,6 +362,10 @@ const Array kArrays[] = {{"diffuse_emitters", 2 * sizeof(DiffuseEmitter)},
                          {"filter_pushes", sizeof(FilterPush)},
                          {"pixel_lights", 2 * sizeof(PixelLight)},
                          {"filter_counts", 2 * sizeof(FilterCounts)},
+                         {"pixel_colours", 2 * sizeof(PixelColour)},
+                         {"composition_counts", 2 * sizeof(CompositionCounts)},
+                         {"past_surfaces", 2 * sizeof(PastSurfaceRecord)},
+                         {"accumulation_counts", 2 * sizeof(AccumulationCounts)},
                          {"pixels", 2 * sizeof(PixelRecord)},
                          {"pixel_sums", 2 * sizeof(PixelSums)},
                          {"tile_counts", 2 * sizeof(TileCounts)},
@@ -316,7 +380,11 @@ const Array kArraysWithAddresses[] = {{"textures", 2 * sizeof(TextureRecord)},
                                       {"meshes", 2 * sizeof(MeshRecord)},
                                       {"scenes", 2 * sizeof(SceneRecord)},
                                       {"geometry_pushes", sizeof(GeometryPush)},
-                                      {"shading_pushes", sizeof(ShadingPush)}};
+                                      {"shading_pushes", sizeof(ShadingPush)},
+                                      {"composition_pushes", sizeof(CompositionPush)},
+                                      {"tone_curve_pushes", sizeof(ToneCurvePush)},
+                                      {"accumulation_frames", 2 * sizeof(AccumulationFrame)},
+                                      {"accumulation_pushes", sizeof(AccumulationPush)}};
 
 TEST(DeviceRecords, have_their_members_where_shaders_have_them) {
   const auto offsets = Layouts(device_records).offsets();

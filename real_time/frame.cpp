@@ -6,7 +6,7 @@
 
 #include "base/parallel.h"
 #include "ray_tracing/ray_scene.h"
-#include "real_time/composition.h"
+#include "real_time/composition/composition.h"
 #include "real_time/direct_light/direct_light.h"
 #include "real_time/filtering/bilateral_filter.h"
 #include "real_time/filtering/temporal_accumulation.h"
