@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Remakes docs/results: benchmarks/run.sh [culling|baselines|speed|kernel|scaling|steadiness|filter|memory|light_choice|
-# variance_parts|ray_rate|equal_time|pbrt ...], all without arguments (equal_time alone takes an hour and three quarters; pbrt only where
-# $PBRT names that program). Builds into $BUILD (default: build). Shots of files take part where $LUCIOLE_SCENES names their folder.
+# variance_parts|ray_rate|geometry|equal_time|pbrt ...], all without arguments (equal_time alone takes an hour and three quarters; pbrt only where
+# $PBRT names that program, geometry only if asked for, as it needs a Vulkan device). Builds into $BUILD (default: build). Shots of files take part where $LUCIOLE_SCENES names their folder.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${BUILD:-build} results=docs/results
@@ -164,6 +164,12 @@ ray_rate() {
   "$programs/ray_rate_benchmark" 'recipe:lamps?count=60000' "${shots[@]}"
 }
 
+geometry() {
+  local shots
+  read -ra shots <<< "$(main_shots)"
+  "$programs/geometry_benchmark" "${shots[@]}"
+}
+
 variance_parts() {
   local scenes=('recipe:lamps?count=5000' 'recipe:lamps?count=60000' 'recipe:lamps?count=60000&glossy=0.15')
   has_scenes && scenes+=(lost-empire sports-car)
@@ -222,7 +228,7 @@ pages=("$@")
 [[ -n ${PBRT:-} ]] && ((! $#)) && pages+=(pbrt)
 for name in "${pages[@]}"; do
   case $name in
-    speed | memory | kernel | filter | variance_parts | ray_rate | equal_time | pbrt) page "$name" "$name" ;;
+    speed | memory | kernel | filter | variance_parts | ray_rate | geometry | equal_time | pbrt) page "$name" "$name" ;;
     scaling | steadiness | culling | baselines | light_choice) page "$name" "$programs/${name}_benchmark" ;;
     *)
       echo "run.sh: no page '$name'" >&2

@@ -15,7 +15,8 @@ Result<Buffer> Buffer::create(Device& device, std::uint64_t bytes, BufferUse use
   auto wanted = of_type<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
   wanted.size = buffer.bytes_;
   wanted.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+                 VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
   const std::string attempt = "make a buffer on the Vulkan device";
   if (Status made = checked(vkCreateBuffer(device.handle(), &wanted, nullptr, &buffer.handle_), attempt); !made) {
     return made.error();
@@ -31,6 +32,15 @@ Result<Buffer> Buffer::create(Device& device, std::uint64_t bytes, BufferUse use
   which.buffer = buffer.handle_;
   buffer.address_ = vkGetBufferDeviceAddress(device.handle(), &which);
   return buffer;
+}
+
+Status grow(Device& device, Buffer& buffer, std::uint64_t bytes, BufferUse use) {
+  if (buffer.bytes() >= bytes && buffer.bytes() > 0) return Done{};
+  buffer = Buffer();  // first, so that both need not fit
+  Result<Buffer> larger = Buffer::create(device, bytes, use);
+  if (!larger) return larger.error();
+  buffer = std::move(*larger);
+  return Done{};
 }
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {

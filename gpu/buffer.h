@@ -33,4 +33,7 @@ class Buffer {
   std::uint64_t bytes_ = 0, address_ = 0;
 };
 
+// Makes a buffer anew where it is shorter than that; its contents are undefined then.
+Status grow(Device& device, Buffer& buffer, std::uint64_t bytes, BufferUse use);
+
 }  // namespace luciole::gpu

@@ -44,6 +44,7 @@ void CommandList::begin_pass(const std::string& name) {
 }
 
 void CommandList::barrier() {
+  LUCIOLE_ASSERT_EQ(rendering_, false);
   constexpr VkPipelineStageFlags2 kStages =
       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
   auto all = of_type<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
@@ -103,6 +104,7 @@ CommandList::CommandList(CommandList&& other) noexcept
       commands_(other.commands_),
       times_(std::exchange(other.times_, VK_NULL_HANDLE)),
       stamps_(other.stamps_),
+      rendering_(other.rendering_),
       passes_ms_(std::move(other.passes_ms_)) {}
 
 CommandList::~CommandList() {

@@ -13,6 +13,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceRequest& request) {
   if (!chosen) return chosen.error();
   std::unique_ptr<Device> device(new Device);
   device->description_ = devices[*chosen];
+  device->description_.rasterises = device->description_.rasterises && request.may_rasterise;
   device->lost_from_submission_ = request.lost_from_submission;
   const VkPhysicalDevice physical = physical_devices(**instance)[*chosen];
   device->instance_ = std::move(*instance);
@@ -23,23 +24,27 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceRequest& request) {
 Status Device::open(VkPhysicalDevice physical) {
   VkPhysicalDeviceProperties properties;
   vkGetPhysicalDeviceProperties(physical, &properties);
-  ns_per_tick_ = static_cast<double>(properties.limits.timestampPeriod);
+  limits_ = properties.limits;
   VkPhysicalDeviceFeatures offered;
   vkGetPhysicalDeviceFeatures(physical, &offered);
-  queue_family_ = compute_queue_family(physical);
+  queue_family_ = choose_queue_family(physical);
   const float priority = 1;
   auto queue = of_type<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
   queue.queueFamilyIndex = queue_family_;
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
   auto in_1_3 = of_type<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
+  const VkBool32 rasterises = description_.rasterises ? VK_TRUE : VK_FALSE;
+  in_1_3.dynamicRendering = rasterises;
   in_1_3.computeFullSubgroups = in_1_3.synchronization2 = in_1_3.maintenance4 = VK_TRUE;
   auto in_1_2 = of_type<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
   in_1_2.pNext = &in_1_3;
   in_1_2.bufferDeviceAddress = in_1_2.scalarBlockLayout = VK_TRUE;
+  in_1_2.shaderFloat16 = description_.half_floats ? VK_TRUE : VK_FALSE;
   auto features = of_type<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
   features.pNext = &in_1_2;
   features.features.shaderInt64 = VK_TRUE;
+  features.features.multiDrawIndirect = features.features.drawIndirectFirstInstance = rasterises;
   if (instance_->validation()) {  // what GPU-assisted checks write their findings with
     features.features.fragmentStoresAndAtomics = offered.fragmentStoresAndAtomics;
     features.features.vertexPipelineStoresAndAtomics = offered.vertexPipelineStoresAndAtomics;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One Vulkan device, its compute queue and its memory. Outlives its buffers, kernels and command lists.
+// One Vulkan device, its queue and its memory. Outlives its buffers, kernels and command lists.
 #pragma once
 #include <vulkan/vulkan.h>
 
@@ -21,6 +21,7 @@ struct DeviceRequest {
   // For tests of what follows: this submission, counted from 1, and all later ones answer as a lost device does. 0:
   // none.
   std::uint32_t lost_from_submission = 0;
+  bool may_rasterise = true;  // false, for tests: as a device that only computes
 };
 
 class Device {
@@ -33,7 +34,8 @@ class Device {
   const DeviceDescription& description() const { return description_; }
   VkDevice handle() const { return handle_; }
   std::uint32_t queue_family() const { return queue_family_; }
-  double ns_per_tick() const { return ns_per_tick_; }  // of timestamps
+  double ns_per_tick() const { return static_cast<double>(limits_.timestampPeriod); }  // of timestamps
+  const VkPhysicalDeviceLimits& limits() const { return limits_; }
   Memory& memory() { return *memory_; }
 
   // Runs a recorded command list and waits for its end.
@@ -53,7 +55,7 @@ class Device {
   VkQueue queue_ = VK_NULL_HANDLE;
   VkFence finished_ = VK_NULL_HANDLE;
   std::uint32_t queue_family_ = 0;
-  double ns_per_tick_ = 1;
+  VkPhysicalDeviceLimits limits_{};
   std::unique_ptr<Memory> memory_;
   std::uint32_t submissions_ = 0, lost_from_submission_ = 0;
   bool lost_ = false;

@@ -37,7 +37,7 @@ std::uint64_t largest_own_heap(VkPhysicalDevice device) {
   return largest;
 }
 
-void note_missing_features(VkPhysicalDevice device, std::vector<std::string>& missing) {
+void note_features(VkPhysicalDevice device, DeviceDescription& description) {
   auto in_1_3 = of_type<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
   auto in_1_2 = of_type<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
   auto features = of_type<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
@@ -45,7 +45,7 @@ void note_missing_features(VkPhysicalDevice device, std::vector<std::string>& mi
   in_1_2.pNext = &in_1_3;
   vkGetPhysicalDeviceFeatures2(device, &features);
   const auto need = [&](VkBool32 there, const char* name) {
-    if (!there) missing.emplace_back(name);
+    if (!there) description.missing.emplace_back(name);
   };
   need(features.features.shaderInt64, "shaderInt64");
   need(in_1_2.bufferDeviceAddress, "bufferDeviceAddress");
@@ -53,6 +53,7 @@ void note_missing_features(VkPhysicalDevice device, std::vector<std::string>& mi
   need(in_1_3.computeFullSubgroups, "computeFullSubgroups");
   need(in_1_3.synchronization2, "synchronization2");
   need(in_1_3.maintenance4, "maintenance4");
+  description.half_floats = in_1_2.shaderFloat16 == VK_TRUE;
 }
 
 void note_missing_abilities(VkPhysicalDevice device, const VkPhysicalDeviceSubgroupProperties& subgroups,
@@ -68,7 +69,28 @@ void note_missing_abilities(VkPhysicalDevice device, const VkPhysicalDeviceSubgr
     missing.emplace_back("workgroups of 256 invocations");
   }
   if (limits.maxComputeSharedMemorySize < kSharedBytes) missing.emplace_back("32 KiB of shared memory");
-  if (compute_queue_family(device) == ~0u) missing.emplace_back("a compute queue with timestamps");
+  if (choose_queue_family(device) == ~0u) missing.emplace_back("a compute queue with timestamps");
+}
+
+std::vector<VkQueueFamilyProperties> queue_families(VkPhysicalDevice device) {
+  return listed<VkQueueFamilyProperties>([&](std::uint32_t* count, VkQueueFamilyProperties* to) {
+    vkGetPhysicalDeviceQueueFamilyProperties(device, count, to);
+  });
+}
+
+// What a device may lack and still be of use: then rays are cast instead.
+bool can_rasterise(VkPhysicalDevice device) {
+  const std::uint32_t family = choose_queue_family(device);
+  if (family == ~0u || !(queue_families(device)[family].queueFlags & VK_QUEUE_GRAPHICS_BIT)) return false;
+  auto in_1_3 = of_type<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
+  auto features = of_type<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+  features.pNext = &in_1_3;
+  vkGetPhysicalDeviceFeatures2(device, &features);
+  VkFormatProperties depth;
+  vkGetPhysicalDeviceFormatProperties(device, VK_FORMAT_D32_SFLOAT, &depth);
+  return in_1_3.dynamicRendering && features.features.multiDrawIndirect &&
+         features.features.drawIndirectFirstInstance &&
+         (depth.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0;
 }
 
 DeviceDescription describe(VkPhysicalDevice device) {
@@ -83,13 +105,15 @@ DeviceDescription describe(VkPhysicalDevice device) {
   d.driver = std::string(driver.driverName) + " " + driver.driverInfo;
   d.kind = kind_of(properties.properties.deviceType);
   d.subgroup_size = subgroups.subgroupSize;
+  d.shuffles = (subgroups.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT) != 0;
   d.memory_bytes = largest_own_heap(device);
   if (properties.properties.apiVersion < VK_API_VERSION_1_3) {
     d.missing.emplace_back("Vulkan 1.3");
     return d;  // it may not be asked for what 1.3 brought
   }
-  note_missing_features(device, d.missing);
+  note_features(device, d);
   note_missing_abilities(device, subgroups, properties.properties.limits, d.missing);
+  d.rasterises = can_rasterise(device);
   return d;
 }
 
@@ -127,14 +151,15 @@ std::vector<VkPhysicalDevice> physical_devices(const Instance& instance) {
       [&](std::uint32_t* count, VkPhysicalDevice* to) { vkEnumeratePhysicalDevices(instance.handle(), count, to); });
 }
 
-std::uint32_t compute_queue_family(VkPhysicalDevice device) {
-  const auto families = listed<VkQueueFamilyProperties>([&](std::uint32_t* count, VkQueueFamilyProperties* to) {
-    vkGetPhysicalDeviceQueueFamilyProperties(device, count, to);
-  });
+std::uint32_t choose_queue_family(VkPhysicalDevice device) {
+  const std::vector<VkQueueFamilyProperties> families = queue_families(device);
+  std::uint32_t chosen = ~0u;
   for (std::uint32_t i = 0; i < families.size(); ++i) {
-    if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) && families[i].timestampValidBits > 0) return i;
+    if (!(families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) || families[i].timestampValidBits == 0) continue;
+    if (families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) return i;
+    if (chosen == ~0u) chosen = i;
   }
-  return ~0u;
+  return chosen;
 }
 
 std::vector<DeviceDescription> list_devices(const Instance& instance) {

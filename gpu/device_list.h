@@ -28,6 +28,9 @@ struct DeviceDescription {
   std::uint32_t subgroup_size = 0;
   std::uint64_t memory_bytes = 0;    // largest heap of its own
   std::vector<std::string> missing;  // what the engine needs and the device lacks
+  bool rasterises = false;           // it can also draw, as RasterPipeline does
+  bool half_floats = false;          // kernels may compute with floats of 16 bits
+  bool shuffles = false;             // an invocation may read any other's value within its subgroup
 };
 
 // In the order in which Vulkan lists them: a device's place is its index.
@@ -42,7 +45,8 @@ Result<std::size_t> choose_device(const std::vector<DeviceDescription>& devices,
 // The physical devices themselves, in the same order.
 std::vector<VkPhysicalDevice> physical_devices(const Instance& instance);
 
-// Which of a device's queues run compute shaders and keep time; none: 0xffffffff.
-std::uint32_t compute_queue_family(VkPhysicalDevice device);
+// Which of a device's queue families to use: one that computes and keeps time, and draws if one does all three. None:
+// 0xffffffff.
+std::uint32_t choose_queue_family(VkPhysicalDevice device);
 
 }  // namespace luciole::gpu

@@ -4,29 +4,10 @@
 #include <string>
 #include <utility>
 
-#include "gpu/vulkan_answer.h"
+#include "gpu/shader_module.h"
 
 namespace luciole::gpu {
 namespace {
-
-class Module {
- public:
-  Module(VkDevice device, const ShaderCode& code) : device_(device) {
-    auto wanted = of_type<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
-    wanted.codeSize = code.bytes;
-    wanted.pCode = code.words;
-    answer = vkCreateShaderModule(device, &wanted, nullptr, &handle);
-  }
-  ~Module() { vkDestroyShaderModule(device_, handle, nullptr); }
-  Module(const Module&) = delete;
-  Module& operator=(const Module&) = delete;
-
-  VkShaderModule handle = VK_NULL_HANDLE;
-  VkResult answer;
-
- private:
-  VkDevice device_;
-};
 
 VkResult lay_out(VkDevice device, std::uint32_t push_bytes, VkPipelineLayout& layout) {
   const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, push_bytes};
@@ -61,7 +42,7 @@ Result<Kernel> Kernel::create(Device& device, const ShaderCode& code, std::uint3
   Kernel kernel;
   kernel.device_ = &device;
   kernel.push_bytes_ = push_bytes;
-  const Module module(device.handle(), code);
+  const ShaderModule module(device.handle(), code);
   if (module.answer != VK_SUCCESS) return error_of(module.answer, attempt);
   if (Status made = checked(lay_out(device.handle(), push_bytes, kernel.layout_), attempt); !made) return made.error();
   if (Status made =

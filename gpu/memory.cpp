@@ -25,6 +25,7 @@ std::vector<VkMemoryPropertyFlags> preferences(BufferUse use) {
   constexpr VkMemoryPropertyFlags kSeen = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   switch (use) {
     case BufferUse::device:
+    case BufferUse::attachment:
       return {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
     case BufferUse::readback:
       return {kSeen | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, kSeen};
@@ -73,7 +74,7 @@ Result<MemoryBlock*> Memory::new_block(std::uint64_t bytes, std::uint32_t type, 
   }
   blocks_.push_back(std::move(block));
   MemoryBlock& kept = *blocks_.back();
-  if (use != BufferUse::device) {
+  if (use == BufferUse::upload || use == BufferUse::readback) {
     const VkResult mapped = vkMapMemory(device_, kept.memory, 0, VK_WHOLE_SIZE, 0, &kept.mapped);
     if (mapped != VK_SUCCESS) return error_of(mapped, "map memory of the Vulkan device");
   }

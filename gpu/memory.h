@@ -13,9 +13,10 @@ namespace luciole::gpu {
 
 // What a buffer is for, which decides where it lies.
 enum class BufferUse : std::uint8_t {
-  device,   // kernels read and write it
-  upload,   // the CPU writes it, a copy takes it to the device
-  readback  // a copy brings it from the device, the CPU reads it
+  device,     // kernels read and write it
+  upload,     // the CPU writes it, a copy takes it to the device
+  readback,   // a copy brings it from the device, the CPU reads it
+  attachment  // no buffer but an image (image.h): in blocks of their own, as devices may keep the two apart
 };
 
 struct MemoryBlock;

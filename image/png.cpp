@@ -12,13 +12,11 @@
 namespace luciole {
 namespace {
 
-std::uint8_t encode_8_bit(float linear) { return static_cast<std::uint8_t>(srgb_encode(linear) * 255.0f + 0.5f); }
-
 std::vector<std::uint8_t> encode_pixels(const std::vector<Vec3>& pixels) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(pixels.size() * 3);
   for (const Vec3& pixel : pixels) {
-    for (const float linear : {pixel.x, pixel.y, pixel.z}) bytes.push_back(encode_8_bit(linear));
+    for (const float linear : {pixel.x, pixel.y, pixel.z}) bytes.push_back(srgb_code(linear));
   }
   return bytes;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // From scene-linear radiance to what a screen shows: exposure, then a named tone curve, then the sRGB encoding.
 #pragma once
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -27,6 +29,11 @@ std::vector<Vec3> to_display(const std::vector<Vec3>& radiance, float exposure, 
 // IEC 61966-2-1 transfer function and its inverse, [0,1] to [0,1]; the argument is clamped, NaN counts as 0.
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
+
+// What an 8-bit file has for a display-linear value: the nearest code.
+std::uint8_t srgb_code(float linear);
+// Where the codes from 1 on begin: the smallest display-linear value of each.
+std::array<float, 255> srgb_code_edges();
 
 // Luminance of linear Rec. 709 (second row of its matrix to CIE XYZ).
 inline float luminance(Vec3 linear) { return 0.2126f * linear.x + 0.7152f * linear.y + 0.0722f * linear.z; }

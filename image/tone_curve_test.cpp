@@ -92,5 +92,30 @@ TEST(Srgb, known_points_and_round_trip) {
   }
 }
 
+TEST(SrgbCodes, begin_at_their_edges_and_nowhere_else) {
+  const auto edges = srgb_code_edges();
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const int code = static_cast<int>(i) + 1;
+    EXPECT_EQ(srgb_code(edges[i]), code);
+    EXPECT_EQ(srgb_code(std::nextafter(edges[i], 0.0f)), code - 1);
+  }
+  // Whoever counts edges has the code, also where powers are rounded one way and the other.
+  std::size_t reached = 0;
+  for (float x = 0; x <= 1; x += 1e-6f) {
+    while (reached < edges.size() && x >= edges[reached]) ++reached;
+    ASSERT_EQ(srgb_code(x), reached) << x;
+  }
+  for (const float edge : edges) {
+    float below = edge, above = edge;
+    const int code = srgb_code(edge);
+    for (int step = 0; step < 1000; ++step) {
+      below = std::nextafter(below, 0.0f);
+      ASSERT_EQ(srgb_code(below), code - 1);
+      ASSERT_EQ(srgb_code(above), code);
+      above = std::nextafter(above, 2.0f);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace luciole

@@ -11,6 +11,7 @@
 //
 // One loop does all: a turn is a node, a triangle or a reference that waited in vain. It ends after kMostTurns, as
 // software Vulkan ends all loops of an invocation after 65,535 turns together, and silently; then `complete` is false.
+#include "base/vectors.glsl"
 #include "ray_tracing/hierarchy_records.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer HierarchyNodes { HierarchyNode value[]; };
@@ -41,7 +42,6 @@ struct Hit {
 
 bool stops_ray(uint mesh, uint triangle, vec2 uv);
 
-vec3 vector(float v[3]) { return vec3(v[0], v[1], v[2]); }
 vec4 lanes(float v[4]) { return vec4(v[0], v[1], v[2], v[3]); }
 
 // The ray's own frame: its direction lies along z, so that what a ray passes is told in two dimensions [WBW13].

@@ -3,12 +3,13 @@
 luciole_room(real_time_front
   SOURCES
     direct_light/direct_light.cpp
+    direct_light/direct_sources.cpp
     geometry_buffer/geometry_buffer.cpp
     geometry_buffer/geometry_buffer_pass.cpp
     geometry_buffer/pixel_block.cpp
     many_lights/many_lights.cpp
+    reflective_shadow_map/basis.cpp
     reflective_shadow_map/cell_partition.cpp
-    reflective_shadow_map/direction_maps.cpp
     reflective_shadow_map/light_map.cpp
     reflective_shadow_map/primary_light.cpp
     reflective_shadow_map/reflective_shadow_map.cpp

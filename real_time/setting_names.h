@@ -36,6 +36,9 @@ constexpr NameTable<NearField, 2> names(NearField) {
 constexpr NameTable<Engine, 3> names(Engine) {
   return {{{Engine::cpu, "cpu"}, {Engine::vulkan, "vulkan"}, {Engine::automatic, "auto"}}};
 }
+constexpr NameTable<Front, 4> names(Front) {
+  return {{{Front::automatic, "auto"}, {Front::cpu, "cpu"}, {Front::raster, "raster"}, {Front::rays, "rays"}}};
+}
 constexpr NameTable<Filter, 2> names(Filter) { return {{{Filter::bilateral, "bilateral"}, {Filter::none, "none"}}}; }
 
 }  // namespace luciole

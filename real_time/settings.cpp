@@ -13,5 +13,6 @@ std::string to_string(Lobes value) { return name_of(value); }
 std::string to_string(NearField value) { return name_of(value); }
 std::string to_string(Filter value) { return name_of(value); }
 std::string to_string(Engine value) { return name_of(value); }
+std::string to_string(Front value) { return name_of(value); }
 
 }  // namespace luciole

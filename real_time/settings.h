@@ -44,8 +44,16 @@ enum class NearField : std::uint8_t {
 enum class Filter : std::uint8_t { bilateral, none };
 enum class Engine : std::uint8_t {
   cpu,       // needs no driver; the same picture everywhere
-  vulkan,    // ranges, culling and shading on a Vulkan device
+  vulkan,    // a Vulkan device
   automatic  // Vulkan where there is a device in hardware that can do the settings, else the CPU
+};
+
+// With the Vulkan engine: what makes geometry buffer, virtual point lights and direct light.
+enum class Front : std::uint8_t {
+  automatic,  // raster on a GPU, or rays where it has no rasteriser; the CPU for software Vulkan, which traces slowly
+  cpu,        // the CPU engine's passes, whose output is sent
+  raster,     // the device: pixels by rasterisation, lights and shadows by a ray caster in compute shaders
+  rays        // the device: all by the ray caster
 };
 
 struct Settings {
@@ -70,6 +78,7 @@ struct Settings {
   Isa isa = Isa::automatic;
   Engine engine = Engine::cpu;
   std::string device;              // of the Vulkan engine: index or part of the name; empty: the best there is
+  Front front = Front::automatic;  // likewise
   bool vulkan_validation = false;  // whatever the validation layers say fails the run
   // For tests of a device's loss, without a name: gpu::DeviceRequest has it.
   std::uint32_t lost_from_submission = 0;
@@ -84,5 +93,6 @@ std::string to_string(Lobes);
 std::string to_string(NearField);
 std::string to_string(Filter);
 std::string to_string(Engine);
+std::string to_string(Front);
 
 }  // namespace luciole

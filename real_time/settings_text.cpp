@@ -84,9 +84,10 @@ const SettingTable<Settings>& table() {
       whole_entry<Settings, std::uint64_t>("vpl_seed", "seed of VPL positions; 0: texel centres",
                                            "a whole number from 0", &Settings::vpl_seed, any_seed),
       choice_entry("isa", "instruction set: auto|avx512|avx2|baseline", &Settings::isa),
-      choice_entry("engine", "what computes ranges, culling and shading: cpu|vulkan|auto (a GPU if there is one)",
-                   &Settings::engine),
+      choice_entry("engine", "what computes the frame: cpu|vulkan|auto (a GPU if there is one)", &Settings::engine),
       device_entry(),
+      choice_entry("front", "with Vulkan, what makes pixels, VPLs and direct light: auto|cpu|raster|rays",
+                   &Settings::front),
       validation_entry(),
   });
   return entries;

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 
-#include "real_time/filtering/bilateral_filter.h"
 #include "real_time/vulkan_transfer.h"
 
 namespace luciole {
@@ -14,6 +14,7 @@ namespace {
 // a light takes one, and a quarter of one for subgroups of four. Of hardware, the longest submission that no watchdog
 // of an operating system minds.
 constexpr std::uint32_t kSoftwarePart = 32768, kHardwarePart = 262144;
+constexpr std::uint32_t kFewerWithShadows = 16;  // a shadow ray takes some dozens of turns
 
 constexpr const char* kTransfer = "transfer";
 
@@ -21,71 +22,54 @@ std::uint32_t longest(const SubsetLayout& layout) {
   return layout.count.empty() ? 0 : *std::max_element(layout.count.begin(), layout.count.end());
 }
 
-void add_times(std::vector<std::pair<std::string, double>>& sums,
-               const std::vector<std::pair<std::string, double>>& more) {
-  for (const auto& [name, ms] : more) {
-    const auto known =
-        std::find_if(sums.begin(), sums.end(), [&, &wanted = name](const auto& sum) { return sum.first == wanted; });
-    if (known == sums.end()) {
-      sums.emplace_back(name, ms);
-    } else {
-      known->second += ms;
-    }
-  }
-}
-
 void clear(Radiance& radiance, std::size_t pixels) {
   for (Plane3* planes : {&radiance.diffuse, &radiance.specular})
     for (Plane& plane : *planes) plane.assign(pixels, 0.0f);
 }
 
+// Software Vulkan traces rays on the CPU, many times slower than the CPU's own passes.
+Result<Front> front_of(const Settings& settings, const gpu::DeviceDescription& device) {
+  if (settings.front == Front::raster && !device.rasterises) {
+    return Error{ErrorKind::failed, "the Vulkan device '" + device.name + "' cannot rasterise: use --front rays"};
+  }
+  if (settings.front != Front::automatic) return settings.front;
+  if (device.kind == gpu::DeviceKind::cpu) return Front::cpu;
+  return device.rasterises ? Front::raster : Front::rays;
+}
+
 // Whether the sums of pixels come back to the CPU.
 bool wants_sums(const VulkanFrame& frame, bool filtered) {
-  return !filtered || frame.noisy_too || frame.lobes_apart || frame.count_per_pixel;
+  return !frame.compose && (!filtered || frame.noisy_too || frame.lobes_apart || frame.count_per_pixel);
 }
 
 }  // namespace
 
-Status VulkanEngine::can_do(const Settings& settings) {
-  const auto refused = [](const std::string& setting) {
-    return Error{ErrorKind::usage, "the Vulkan engine cannot do " + setting + ": use --engine cpu"};
-  };
-  if (settings.direct_shadows) return refused("--direct-shadows");
-  if (settings.culling == Culling::clustered || settings.culling == Culling::splatting) {
-    return refused("--culling " + to_string(settings.culling));
-  }
-  return Done{};
-}
-
 Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(const Settings& settings, const gpu::DeviceRequest& request,
                                                            std::uint32_t largest_part) {
-  if (Status able = can_do(settings); !able) return able.error();
   Result<std::unique_ptr<gpu::Device>> device = gpu::Device::create(request);
   if (!device) return device.error();
   std::unique_ptr<VulkanEngine> engine(new VulkanEngine(std::move(*device), settings));
   const bool software = engine->device().kind == gpu::DeviceKind::cpu;
-  engine->largest_part_ = largest_part > 0 ? largest_part : software ? kSoftwarePart : kHardwarePart;
+  const std::uint32_t part =
+      (software ? kSoftwarePart : kHardwarePart) / (settings.direct_shadows ? kFewerWithShadows : 1);
+  engine->largest_part_ = largest_part > 0 ? largest_part : part;
   Result<LightRangePass> ranges = LightRangePass::create(*engine->device_, settings);
   if (!ranges) return ranges.error();
-  Result<TileShadingPass> shading = TileShadingPass::create(*engine->device_, settings);
+  Result<DeviceShading> shading = DeviceShading::create(*engine->device_, settings);
   if (!shading) return shading.error();
   engine->ranges_ = std::move(*ranges), engine->shading_ = std::move(*shading);
-  if (settings.filter == Filter::bilateral) {
-    const FilterRadius radius = filter_radius(settings.interleave);
-    Result<DeviceFilterPass> filter = DeviceFilterPass::create(*engine->device_, radius, settings.interleave);
-    if (!filter) return filter.error();
-    engine->filter_ = std::move(*filter);
+  const Result<Front> front_by = front_of(settings, engine->device());
+  if (!front_by) return front_by.error();
+  engine->settings_.front = *front_by;
+  if (*front_by != Front::cpu) {
+    Result<VulkanFront> front = VulkanFront::create(*engine->device_, engine->settings_);
+    if (!front) return front.error();
+    engine->front_ = std::move(*front);
   }
+  Result<VulkanBack> back = VulkanBack::create(*engine->device_, settings);
+  if (!back) return back.error();
+  engine->back_ = std::move(*back);
   return engine;
-}
-
-Status VulkanEngine::grow(gpu::Buffer& buffer, std::uint64_t bytes, gpu::BufferUse use) {
-  if (buffer.bytes() >= bytes && buffer.bytes() > 0) return Done{};
-  buffer = gpu::Buffer();  // first, so that both need not fit
-  Result<gpu::Buffer> larger = gpu::Buffer::create(*device_, bytes, use);
-  if (!larger) return larger.error();
-  buffer = std::move(*larger);
-  return Done{};
 }
 
 // pack(Record*) writes what is sent.
@@ -101,22 +85,63 @@ Status VulkanEngine::send(gpu::CommandList& list, std::size_t count, const Pack&
   return Done{};
 }
 
+Status VulkanEngine::send_scene(SceneToTrace scene) {
+  if (scene_ && scene_number_ == scene.number) return Done{};
+  scene_.reset();  // first, so that both need not fit
+  const Result<Hierarchy> hierarchy = build_hierarchy(scene.rays->scene());
+  if (!hierarchy) return hierarchy.error();
+  Result<DeviceScene> sent = DeviceScene::create(*device_, scene.rays->scene(), *hierarchy);
+  if (!sent) return sent.error();
+  scene_.emplace(std::move(*sent)), scene_number_ = scene.number;
+  return Done{};
+}
+
+Status VulkanEngine::make_view(std::uint64_t number, SceneToTrace scene, const ViewRequest& wanted) {
+  if (number == view_) return Done{};
+  view_ = ~std::uint64_t{0};
+  if (Status sent = send_scene(scene); !sent) return sent;
+  if (Status made = front_->render(*device_, *scene_, wanted, seen_); !made) return made;
+  count_vpls();
+  view_ = number;
+  return Done{};
+}
+
+Status VulkanEngine::read_view(std::uint64_t number, SceneToTrace scene, const ViewRequest& wanted,
+                               const ViewOnHost& to) {
+  const auto start = std::chrono::steady_clock::now();
+  const bool makes_view = number != view_;
+  if (Status made = make_view(number, scene, wanted); !made) return made;
+  if (Status read = read_back(*device_, seen_, wanted.view, to); !read) return read;
+  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+  read_ms_ += wall.count() - (makes_view ? total_ms(front_->passes_ms()) : 0);
+  return Done{};
+}
+
 Status VulkanEngine::send_view(const VulkanFrame& frame, gpu::CommandList& list) {
+  if (frame.view == view_) return Done{};
+  view_ = ~std::uint64_t{0};
   const auto pack_pixels = [&](PixelRecord* to) { pack(frame.geometry, to); };
-  if (Status s = send<PixelRecord>(list, frame.geometry.pixel_count(), pack_pixels, pixels_); !s) return s;
-  const SubsetLayout layout = subset_layout(frame.vpls.key, settings_.interleave);
-  longest_subset_vpls_ = longest(layout);
-  const auto pack_lights = [&](VplRecord* to) { pack(frame.vpls, layout, to); };
-  if (Status s = send<VplRecord>(list, layout.light.size(), pack_lights, vpls_); !s) return s;
-  const auto pack_subsets = [&](SubsetRange* to) { pack(layout, to); };
-  if (Status s = send<SubsetRange>(list, layout.begin.size(), pack_subsets, vpl_subsets_); !s) return s;
-  for (const LightKind kind : {kDiffuseLights, kGlossyLights}) {
-    const bool wanted = settings_.lobes != (kind == kDiffuseLights ? Lobes::glossy : Lobes::diffuse);
-    lights_[kind].entries = wanted ? static_cast<std::uint32_t>(layout.light.size()) : 0;
-    lights_[kind].records = &vpls_;
+  if (Status s = send<PixelRecord>(list, frame.geometry.pixel_count(), pack_pixels, seen_.geometry.pixels); !s) {
+    return s;
   }
+  const SubsetLayout layout = subset_layout(frame.vpls.key, settings_.interleave);
+  const auto pack_lights = [&](VplRecord* to) { pack(frame.vpls, layout, to); };
+  if (Status s = send<VplRecord>(list, layout.light.size(), pack_lights, seen_.vpls); !s) return s;
+  const auto pack_subsets = [&](SubsetRange* to) { pack(layout, to); };
+  if (Status s = send<SubsetRange>(list, layout.begin.size(), pack_subsets, seen_.subsets); !s) return s;
+  seen_.entries = static_cast<std::uint32_t>(layout.light.size()), seen_.longest_subset = longest(layout);
+  seen_.vpl_count = frame.vpls.size();
+  count_vpls();
   view_ = frame.view;
   return Done{};
+}
+
+void VulkanEngine::count_vpls() {
+  for (const LightKind kind : {kDiffuseLights, kGlossyLights}) {
+    const bool wanted = settings_.lobes != (kind == kDiffuseLights ? Lobes::glossy : Lobes::diffuse);
+    lights_[kind].entries = wanted ? seen_.entries : 0;
+    lights_[kind].records = &seen_.vpls;
+  }
 }
 
 Status VulkanEngine::send_many_lights(const VulkanFrame& frame, gpu::CommandList& list) {
@@ -140,24 +165,20 @@ Status VulkanEngine::make_outputs(const VulkanFrame& frame) {
     const std::pair<gpu::Buffer*, std::uint64_t> buffers[] = {{&on.emitters, on.entries * kEmitterBytes[kind]},
                                                               {&on.bounds, on.entries / 16 * sizeof(BoundBlock)},
                                                               {&sums_[kind], pixels * sizeof(PixelSums)},
-                                                              {&tile_counts_[kind], tiles * sizeof(TileCounts)}};
+                                                              {&tile_counts_[kind], tiles * shading_.count_bytes()}};
     for (const auto& [buffer, bytes] : buffers) {
       if (Status grown = grow(*buffer, bytes, gpu::BufferUse::device); !grown) return grown;
     }
   }
-  if (filters(frame)) {
-    if (Status s = grow(filtered_, pixels * sizeof(PixelLight), gpu::BufferUse::device); !s) return s;
-    if (Status s = grow(filter_counts_, sizeof(FilterCounts), gpu::BufferUse::device); !s) return s;
+  if (wants_sums(frame, filters(frame))) {
+    if (Status s = grow(received_pixels_, pixels * sizeof(PixelSums), gpu::BufferUse::readback); !s) return s;
   }
-  const std::size_t of_pixel = wants_sums(frame, filters(frame)) ? sizeof(PixelSums) : sizeof(PixelLight);
-  if (Status s = grow(received_pixels_, pixels * of_pixel, gpu::BufferUse::readback); !s) return s;
-  return grow(received_counts_, tiles * sizeof(TileCounts), gpu::BufferUse::readback);
+  return grow(received_counts_, tiles * shading_.count_bytes(), gpu::BufferUse::readback);
 }
 
 Status VulkanEngine::prepare(const VulkanFrame& frame, gpu::CommandList& list) {
   list.begin_pass(kTransfer);
-  if (frame.view != view_) {
-    view_ = ~std::uint64_t{0};
+  if (frame.made_here == nullptr) {
     if (Status sent = send_view(frame, list); !sent) return sent;
   }
   if (Status sent = send_many_lights(frame, list); !sent) return sent;
@@ -173,55 +194,71 @@ Status VulkanEngine::run(gpu::CommandList& list) {
   return done;
 }
 
-// Each part by itself: a long submission looks like a hung device to some systems.
-Status VulkanEngine::run_parts(const VulkanFrame& frame) {
+Status VulkanEngine::shade_lights(const VulkanFrame& frame) {
+  const FrameToShade shared{&seen_.geometry.pixels, frame.geometry, frame.shift};
+  const std::uint32_t longest = std::max(seen_.longest_subset, longest_subset_many_);
+  Status done = shading_.begin(*device_, shared, longest, passes_ms_);
+  if (done && settings_.direct_shadows) done = prepare_shadows(frame.scene);
   for (const LightKind kind : {kDiffuseLights, kGlossyLights, kManyLights}) {
     const bool many = kind == kManyLights;
-    if (lights_[kind].entries == 0) continue;
-    const std::uint32_t lights = many ? longest_subset_many_ : longest_subset_vpls_;
-    const ShadingBuffers buffers{&pixels_, many ? &many_subsets_ : &vpl_subsets_, &lights_[kind], &sums_[kind],
-                                 &tile_counts_[kind]};
-    for (std::uint64_t first = 0; first < lights; first += largest_part_) {
-      Result<gpu::CommandList> list = gpu::CommandList::create(*device_);
-      if (!list) return list.error();
-      list->begin_pass("culling_and_shading");
-      shading_.record(*list, kind, buffers, frame.geometry, frame.shift,
-                      {static_cast<std::uint32_t>(first), largest_part_});
-      if (Status done = run(*list); !done) return done;
-    }
+    if (!done || lights_[kind].entries == 0) continue;
+    const ShadingBuffers buffers{&seen_.geometry.pixels, many ? &many_subsets_ : &seen_.subsets,
+                                 &lights_[kind],         &sums_[kind],
+                                 &tile_counts_[kind],    settings_.direct_shadows ? &shadows_ : nullptr};
+    const std::uint32_t lights = many ? longest_subset_many_ : seen_.longest_subset;
+    done = shading_.run(*device_, kind, buffers, shared, lights, largest_part_, passes_ms_);
   }
-  return Done{};
+  if (!done) view_ = ~std::uint64_t{0};
+  return done;
 }
 
-// Of one kind of light, or of two together. `light` is a part of `out`.
-Status VulkanEngine::filter_sums(const GeometryBuffer& geometry, std::initializer_list<LightKind> kinds,
-                                 FilteredLight& out, Radiance& light) {
-  const std::size_t pixels = geometry.pixel_count();
-  FilterBuffers buffers{&pixels_, nullptr, nullptr, &filtered_, &filter_counts_};
-  for (const LightKind kind : kinds) {
-    if (lights_[kind].entries > 0) buffers.more_sums = std::exchange(buffers.sums, &sums_[kind]);
-  }
-  if (buffers.sums == nullptr) return Done{};
+Status VulkanEngine::prepare_shadows(SceneToTrace scene) {
+  if (Status sent = send_scene(scene); !sent) return sent;
+  if (Status grown = grow(unfinished_, sizeof(word_), gpu::BufferUse::device); !grown) return grown;
   Result<gpu::CommandList> list = gpu::CommandList::create(*device_);
   if (!list) return list.error();
-  list->begin_pass("filtering");
-  filter_->record(*list, buffers, geometry);
   list->begin_pass(kTransfer);
-  list->copy(filtered_, received_pixels_, pixels * sizeof(PixelLight));
-  list->copy(filter_counts_, received_counts_, sizeof(FilterCounts));
-  if (Status done = run(*list); !done) return done;
-  unpack(received_pixels_.as<PixelLight>(), pixels, light);
-  out.not_finite = std::max<std::uint64_t>(out.not_finite, received_counts_.as<FilterCounts>()->not_finite);
-  return Done{};
+  list->fill(unfinished_, 0);
+  const auto pack = [&](ShadowRecord* to) {
+    *to = {scene_->address(), unfinished_.address(), scene.rays->surface_offset(), 0};
+  };
+  Status done = send<ShadowRecord>(*list, 1, pack, shadows_);
+  if (done) done = run(*list);
+  sent_.clear();
+  return done;
 }
 
-Status VulkanEngine::filter(const VulkanFrame& frame, FilteredLight& out) {
-  clear(out.indirect, frame.geometry.pixel_count());
-  if (Status done = filter_sums(frame.geometry, {kDiffuseLights, kGlossyLights}, out, out.indirect); !done) return done;
-  return filter_sums(frame.geometry, {kManyLights}, out, out.from_many);
+LightSums VulkanEngine::light_sums() const {
+  LightSums sums;
+  for (const LightKind kind : {kDiffuseLights, kGlossyLights}) {
+    if (lights_[kind].entries > 0) sums.more_indirect = std::exchange(sums.indirect, &sums_[kind]);
+  }
+  if (lights_[kManyLights].entries > 0) sums.many = &sums_[kManyLights];
+  return sums;
+}
+
+// What is to be done with the sums here.
+Status VulkanEngine::finish(const VulkanFrame& frame, VulkanShaded& out) {
+  Status done = Done{};
+  if (frame.compose) {
+    const BackInputs inputs{seen_, frame.view, frame.geometry, light_sums()};
+    done = back_->compose(*device_, inputs, out.composed.emplace(), passes_ms_);
+  } else if (filters(frame)) {
+    const BackInputs inputs{seen_, frame.view, frame.geometry, light_sums()};
+    done = back_->filter(*device_, inputs, out.filtered.emplace(), passes_ms_);
+  }
+  if (!done) view_ = ~std::uint64_t{0};
+  return done;
 }
 
 Status VulkanEngine::collect(const VulkanFrame& frame, ShadingOutputs& out) {
+  if (settings_.direct_shadows) {
+    const Result<std::vector<char>> unfinished = read(unfinished_, sizeof(word_));
+    if (!unfinished) return unfinished.error();
+    word_ rays = 0;
+    std::memcpy(&rays, unfinished->data(), sizeof(word_));
+    if (Status finished = all_finished(rays); !finished) return finished;
+  }
   const std::size_t pixels = frame.geometry.pixel_count();
   const std::size_t tiles = tile_grid(frame.geometry.width, frame.geometry.height, settings_.interleave).count();
   const float weight = static_cast<float>(settings_.interleave * settings_.interleave);
@@ -232,29 +269,31 @@ Status VulkanEngine::collect(const VulkanFrame& frame, ShadingOutputs& out) {
     if (!list) return list.error();
     list->begin_pass(kTransfer);
     if (sums) list->copy(sums_[kind], received_pixels_, pixels * sizeof(PixelSums));
-    list->copy(tile_counts_[kind], received_counts_, tiles * sizeof(TileCounts));
+    list->copy(tile_counts_[kind], received_counts_, tiles * shading_.count_bytes());
     if (Status done = run(*list); !done) return done;
     if (sums) unpack(frame.geometry, kind, received_pixels_.as<PixelSums>(), weight, out);
-    unpack(kind, received_counts_.as<TileCounts>(), tiles, out);
+    shading_.unpack_counts(kind, received_counts_, tiles, out);
   }
   return Done{};
 }
 
 void VulkanEngine::clear_outputs(const VulkanFrame& frame, ShadingOutputs& out) const {
   const std::size_t pixels = frame.geometry.pixel_count();
-  const bool noisy = !filters(frame) || frame.noisy_too;
+  const bool noisy = !frame.compose && (!filters(frame) || frame.noisy_too);
   if (noisy) clear(out.radiance.indirect, pixels);
   if (noisy && frame.many.size() > 0) clear(out.radiance.from_many, pixels);
   if (frame.lobes_apart) clear(out.radiance.from_diffuse, pixels), clear(out.radiance.from_glossy, pixels);
   if (frame.count_per_pixel) out.lights_listed.assign(pixels, 0.0f), out.lights_false.assign(pixels, 0.0f);
-  out.pixels = static_cast<std::uint64_t>(std::count_if(frame.geometry.depth.begin(), frame.geometry.depth.end(),
-                                                        [](float depth) { return depth != kNoSurface; }));
 }
 
 Result<VulkanShaded> VulkanEngine::shade(const VulkanFrame& frame) {
   const auto start = std::chrono::steady_clock::now();
   passes_ms_ = {{"light_range", 0.0}, {"culling_and_shading", 0.0}};
-  if (filters(frame)) passes_ms_.emplace_back("filtering", 0.0);
+  if (back_->has_filter() && frame.filter) passes_ms_.emplace_back("filtering", 0.0);
+  const bool makes_view = frame.made_here != nullptr && frame.view != view_;
+  if (frame.made_here != nullptr) {
+    if (Status made = make_view(frame.view, frame.scene, *frame.made_here); !made) return made.error();
+  }
   VulkanShaded result;
   clear_outputs(frame, result.shaded);
   Result<gpu::CommandList> list = gpu::CommandList::create(*device_);
@@ -265,19 +304,20 @@ Result<VulkanShaded> VulkanEngine::shade(const VulkanFrame& frame) {
     done = run(*list);
   }
   sent_.clear();
-  if (done) done = run_parts(frame);
-  if (done && filters(frame)) done = filter(frame, result.filtered.emplace());
+  if (done) done = shade_lights(frame);
+  if (done) done = finish(frame, result);
   if (done) done = collect(frame, result.shaded);
   if (!done) return done.error();
   // Whatever is not computing is transfer, also on this side.
   const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
-  double left = wall.count();
+  if (frame.made_here != nullptr) result.passes_ms = front_->passes_ms();
+  const double computing = total_ms(passes_ms_) - of_pass(passes_ms_, kTransfer);
+  const double left = wall.count() - computing - (makes_view ? total_ms(front_->passes_ms()) : 0);
   for (const auto& [pass, ms] : passes_ms_) {
-    if (pass == kTransfer) continue;
-    result.passes_ms.emplace_back(pass, ms);
-    left -= ms;
+    if (pass != kTransfer) result.passes_ms.emplace_back(pass, ms);
   }
-  result.passes_ms.emplace_back(kTransfer, std::max(0.0, left));
+  result.passes_ms.emplace_back(kTransfer, std::max(0.0, left) + std::exchange(read_ms_, 0.0));
+  result.vpl_count = seen_.vpl_count;
   return result;
 }
 

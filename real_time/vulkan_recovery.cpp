@@ -38,25 +38,37 @@ Result<std::optional<VulkanRecovery>> VulkanRecovery::chosen_by(Settings& settin
   return chosen;
 }
 
-Result<std::optional<VulkanShaded>> VulkanRecovery::shade(const VulkanFrame& frame, std::vector<std::string>& notes) {
-  Result<VulkanShaded> shaded = engine_->shade(frame);
-  if (!shaded && engine_->lost() && !reopened_) {
+//   with_engine(VulkanEngine&)  -> Result<T>
+template <class T, class Attempt>
+Result<std::optional<T>> VulkanRecovery::attempt(const Attempt& with_engine, std::vector<std::string>& notes) {
+  Result<T> done = with_engine(*engine_);
+  if (!done && engine_->lost() && !reopened_) {
     reopened_ = true;
-    notes.push_back(shaded.error().message + "; it is opened anew and gets its work in smaller parts.");
+    notes.push_back(done.error().message + "; it is opened anew and gets its work in smaller parts.");
     const std::uint32_t part = std::max(1u, engine_->largest_part() / kSmaller);
     engine_.reset();  // before the next one, as memory may be short
     Result<std::unique_ptr<VulkanEngine>> again = VulkanEngine::create(settings_, request_, part);
     if (!again) {
       notes.push_back(again.error().message + "; the CPU engine goes on.");
-      return std::optional<VulkanShaded>();
+      return std::optional<T>();
     }
     engine_ = std::move(*again);
-    shaded = engine_->shade(frame);
+    done = with_engine(*engine_);
   }
-  if (shaded) return std::optional<VulkanShaded>(std::move(*shaded));
-  if (!engine_->lost()) return shaded.error();
-  notes.push_back(shaded.error().message + " again; the CPU engine goes on.");
-  return std::optional<VulkanShaded>();
+  if (done) return std::optional<T>(std::move(*done));
+  if (!engine_->lost()) return done.error();
+  notes.push_back(done.error().message + " again; the CPU engine goes on.");
+  return std::optional<T>();
+}
+
+Result<std::optional<VulkanShaded>> VulkanRecovery::shade(const VulkanFrame& frame, std::vector<std::string>& notes) {
+  return attempt<VulkanShaded>([&](VulkanEngine& engine) { return engine.shade(frame); }, notes);
+}
+
+Result<std::optional<Done>> VulkanRecovery::read_view(std::uint64_t number, SceneToTrace scene,
+                                                      const ViewRequest& wanted, const ViewOnHost& to,
+                                                      std::vector<std::string>& notes) {
+  return attempt<Done>([&](VulkanEngine& engine) { return engine.read_view(number, scene, wanted, to); }, notes);
 }
 
 }  // namespace luciole

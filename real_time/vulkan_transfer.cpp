@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "real_time/vulkan_transfer.h"
 
+#include <algorithm>
+
 #include "base/parallel.h"
 
 namespace luciole {
@@ -10,6 +12,10 @@ constexpr std::size_t kAtOnce = 16384;  // of a thread
 
 void put(const Plane3& from, std::size_t i, float (&to)[3]) {
   for (std::size_t axis = 0; axis < 3; ++axis) to[axis] = from[axis][i];
+}
+
+void get(const float (&from)[3], std::size_t i, Plane3& to) {
+  for (std::size_t axis = 0; axis < 3; ++axis) to[axis][i] = from[axis];
 }
 
 void add(const float (&sums)[3], float weight, std::size_t pixel, Plane3& to) {
@@ -53,6 +59,24 @@ void pack(const VirtualPointLights& lights, const SubsetLayout& layout, VplRecor
       put(lights.diffuse_albedo, i, r.diffuse_albedo);
       r.f90 = lights.f90[i], r.ggx_alpha = lights.ggx_alpha[i], r.area = lights.area[i];
       r.key = lights.key[i], r.is_light = 1;
+    }
+  });
+}
+
+void unpack(const VplRecord* from, std::size_t entries, VirtualPointLights& lights) {
+  std::vector<const VplRecord*> order;
+  for (std::size_t i = 0; i < entries; ++i) {
+    if (from[i].is_light != 0) order.push_back(from + i);
+  }
+  std::sort(order.begin(), order.end(), [](const VplRecord* a, const VplRecord* b) { return a->key < b->key; });
+  lights.resize(order.size());
+  parallel_for(order.size(), kAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const VplRecord& r = *order[i];
+      get(r.position, i, lights.position), get(r.normal, i, lights.normal), get(r.incident, i, lights.incident);
+      get(r.geometric_normal, i, lights.geometric_normal), get(r.flux, i, lights.flux), get(r.f0, i, lights.f0);
+      get(r.diffuse_albedo, i, lights.diffuse_albedo);
+      lights.f90[i] = r.f90, lights.ggx_alpha[i] = r.ggx_alpha, lights.area[i] = r.area, lights.key[i] = r.key;
     }
   });
 }
@@ -106,9 +130,11 @@ void unpack(const PixelLight* from, std::size_t pixels, Radiance& light) {
 
 void unpack(LightKind kind, const TileCounts* tiles, std::size_t count, ShadingOutputs& out) {
   LightCounts& counts = counts_of(kind, out);
+  std::uint64_t pixels = 0;
   for (std::size_t tile = 0; tile < count; ++tile) {
     for (int half = 0; half < 2; ++half) {
       if (tiles[tile].pixels[half] == 0) continue;
+      pixels += tiles[tile].pixels[half];
       counts.listed += std::uint64_t(tiles[tile].listed[half]) * tiles[tile].pixels[half];
       out.list_lengths.push_back(tiles[tile].listed[half]);
     }
@@ -116,6 +142,7 @@ void unpack(LightKind kind, const TileCounts* tiles, std::size_t count, ShadingO
     counts.tests += tiles[tile].tests;
   }
   counts.evaluated = counts.listed;
+  out.pixels = pixels;  // with a surface: the same for each kind
 }
 
 }  // namespace luciole

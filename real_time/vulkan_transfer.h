@@ -17,6 +17,9 @@ void pack(const VirtualPointLights& lights, const SubsetLayout& layout, VplRecor
 void pack(const ManyLights& lights, const SubsetLayout& layout, ManyLightRecord* to);    // likewise
 void pack(const SubsetLayout& layout, SubsetRange* to);                                  // one per subset
 
+// Back, in the order of their keys.
+void unpack(const VplRecord* from, std::size_t entries, VirtualPointLights& lights);
+
 // What the lights of one kind gave: adds to the planes of `out`, which are cleared, and to its counts.
 //   weight  n^2
 void unpack(const GeometryBuffer& geometry, LightKind kind, const PixelSums* sums, float weight, ShadingOutputs& out);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame, and what the ray caster makes, under the validation layers: core, synchronisation and GPU-assisted checks.
-// By itself, as software Vulkan takes half a minute to compile kernels in which each access is checked.
+// A frame, and its front half by rays and by rasterisation, under the validation layers: core, synchronisation and
+// GPU-assisted checks. By itself, as software Vulkan takes half a minute to compile kernels in which each access is
+// checked.
 #include "gpu/test_device.h"
-#include "real_time/geometry_buffer/device_geometry_pass.h"
+#include "real_time/shading/list_test_stage.h"
 #include "real_time/vulkan_test_front.h"
 #include "scene/random_surfaces.h"
 
@@ -23,10 +24,11 @@ TEST(Validation, has_nothing_to_say_of_a_frame) {
   EXPECT_TRUE(frame.has_value()) << frame.error().message;
 }
 
-// Without the checks inside the kernel, with which software Vulkan compiles it for minutes.
+// Without the checks inside the kernels, with which software Vulkan compiles them for minutes.
 //
-// Random materials with textures, masks and normal maps, on triangles that have what they need and that have not.
-TEST(Validation, has_nothing_to_say_of_the_geometry_buffer) {
+// Random materials with textures, masks and normal maps, on triangles that have what they need and that have not, under
+// lights of all kinds.
+TEST(Validation, has_nothing_to_say_of_the_front) {
   Dice dice(9);
   Scene scene = random_scene(dice, false);
   for (Material& material : scene.materials) material.alpha_mode = static_cast<AlphaMode>(dice.below(3));
@@ -34,21 +36,58 @@ TEST(Validation, has_nothing_to_say_of_the_geometry_buffer) {
   request.validation = true, request.in_kernels = false;
   const auto device = gpu::test::open_device(request);
   ASSERT_TRUE(device);
+  const Result<RayScene> rays = RayScene::create(std::make_shared<const Scene>(scene));
+  ASSERT_TRUE(rays.has_value());
+  PunctualLight point, spot, sun;
+  point.position = spot.position = Vec3(1, 2, 4);
+  spot.kind = PunctualLight::Kind::spot, sun.kind = PunctualLight::Kind::directional;
+  Settings settings = small_settings();
+  ViewRequest wanted;
+  wanted.lights = {point, spot, sun};
+  const ReflectiveShadowMaps maps(wanted.lights, rays->bounds(), settings.vpls);
+  wanted.rays = &*rays, wanted.maps = &maps;
+  wanted.view = {look_at(Vec3(0, 0, 4), Vec3(0, 0, 0), 1.2f), settings.width, settings.height};
   const Result<Hierarchy> hierarchy = build_hierarchy(scene);
   ASSERT_TRUE(hierarchy.has_value());
-  const DeviceView view{look_at(Vec3(0, 0, 4), Vec3(0, 0, 0), 1.2f), 70, 45};
   const Result<DeviceScene> placed = DeviceScene::create(*device, scene, *hierarchy);
-  const Result<DeviceGeometryPass> pass = DeviceGeometryPass::create(*device);
-  const Result<GeometryOnDevice> target = GeometryOnDevice::create(*device, view.width, view.height);
-  ASSERT_TRUE(placed.has_value() && pass.has_value() && target.has_value());
-  gpu::CommandList list = gpu::test::make_list(*device);
-  pass->record(list, *placed, view, *target);
-  ASSERT_TRUE(list.run().has_value());
-  GeometryBuffer seen;
-  ASSERT_TRUE(read_back(*device, *target, view, seen).has_value());
-  EXPECT_GT(std::count_if(seen.depth.begin(), seen.depth.end(), [](float depth) { return depth != kNoSurface; }), 500);
+  ASSERT_TRUE(placed.has_value()) << placed.error().message;
+  for (const luciole::Front by : {luciole::Front::rays, luciole::Front::raster}) {
+    settings.front = by;
+    Result<VulkanFront> front = VulkanFront::create(*device, settings);
+    ASSERT_TRUE(front.has_value()) << front.error().message;
+    ViewOnDevice made;
+    for (int time = 0; time < 2; ++time) {  // and once again into the same buffers and images
+      const Status rendered = front->render(*device, *placed, wanted, made);
+      ASSERT_TRUE(rendered.has_value()) << rendered.error().message;
+    }
+    GeometryBuffer geometry;
+    VirtualPointLights vpls;
+    Plane3 direct;
+    ASSERT_TRUE(read_back(*device, made, wanted.view, {geometry, vpls, direct}).has_value());
+    const auto is_surface = [](float depth) { return depth != kNoSurface; };
+    EXPECT_GT(std::count_if(geometry.depth.begin(), geometry.depth.end(), is_surface), 500);
+    EXPECT_GT(vpls.size(), 100u);
+    EXPECT_GT(*std::max_element(direct[1].begin(), direct[1].end()), 0.0f);
+  }
   const Status validated = device->validated();
   EXPECT_TRUE(validated.has_value()) << validated.error().message;
+}
+
+// Without the checks inside the kernels, for the same reason.
+TEST(Validation, has_nothing_to_say_of_the_rivals_of_tiled_culling) {
+  for (const Culling culling : {Culling::clustered, Culling::splatting}) {
+    Settings settings = small_settings();
+    settings.culling = culling;
+    gpu::DeviceRequest request;
+    request.validation = true, request.in_kernels = false;
+    const ListStage stage("recipe:lights?count=500", settings, request);
+    for (const LightKind kind : {kDiffuseLights, kGlossyLights, kManyLights}) {
+      ASSERT_GT(stage.longest(kind), 0u);
+      EXPECT_EQ(stage.shade_lists(stage.make_pass(stage.longest(kind)), kind).parts.size(), stage.tiles());
+    }
+    const Status validated = stage.device->validated();
+    EXPECT_TRUE(validated.has_value()) << validated.error().message;
+  }
 }
 
 }  // namespace

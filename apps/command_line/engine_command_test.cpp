@@ -50,12 +50,27 @@ TEST_F(EngineCommand, cpu_is_the_engine_that_nobody_asks_for) {
   EXPECT_FALSE(statistics.contains("device"));
 }
 
+// Pixels, lights and shadows are the device's, and so is their sum: nothing of the frame's light is the CPU's.
+TEST_F(EngineCommand, vulkan_makes_the_whole_frame_if_asked) {
+  for (const char* front : {"raster", "rays"}) {
+    ASSERT_EQ(run(render({"-o", "out/a.exr", "-o", "out/a.png", "--engine", "vulkan", "--front", front, "--statistics",
+                          "out/a.json"}))
+                  .exit_code,
+              0)
+        << front;
+    const auto statistics = nlohmann::json::parse(content(folder_ / "out/a.json"));
+    for (const char* pass : {"geometry_buffer", "reflective_shadow_map", "direct_light", "composition"})
+      EXPECT_GT(statistics["passes_ms"][pass].get<double>(), 0) << pass;
+    EXPECT_GT(statistics["virtual_point_lights"].get<double>(), 0);
+  }
+}
+
 TEST_F(EngineCommand, refuses_what_the_engine_cannot_do) {
-  EXPECT_REFUSED(2, render({"-o", "out/a.exr", "--engine", "vulkan", "--direct-shadows"}));
-  EXPECT_REFUSED(2, render({"-o", "out/a.exr", "--engine", "vulkan", "--culling", "clustered"}));
   EXPECT_REFUSED(2, render({"-o", "out/a.exr", "--engine", "vulkan", "--device", "no such device"}));
   EXPECT_REFUSED(2, render({"-o", "out/a.exr", "--device", "0"}));
   EXPECT_REFUSED(2, render({"-o", "out/a.exr", "--vulkan-validation"}));
+  EXPECT_REFUSED(2, render({"-o", "out/a.exr", "--front", "rays"}));
+  EXPECT_REFUSED(2, render({"-o", "out/a.exr", "--engine", "vulkan", "--front", "mirror"}));
   EXPECT_REFUSED(2, render({"-o", "out/a.exr", "--engine", "quantum"}));
   EXPECT_REFUSED(2, render({"-o", "out/a.exr", "--method", "path", "--engine", "vulkan"}));
 }

@@ -5,6 +5,7 @@
 
 #include "real_time/device_scene/upload.h"
 #include "scene/srgb.h"
+#include "scene/surface.h"
 
 namespace luciole {
 namespace {
@@ -136,6 +137,16 @@ MaterialRecord material_of(const Material& from) {
   return made;
 }
 
+MeshBounds bounds_of(const Scene& scene, const Mesh& mesh) {
+  Bounds bounds;
+  for (const Vec3& position : mesh.positions) bounds.grow(position);
+  MeshBounds made{};
+  copy(made.low, bounds.low), copy(made.high, bounds.high);
+  made.triangles = static_cast<word_>(mesh.indices.size() / 3);
+  made.has_holes = can_have_holes(scene, mesh);
+  return made;
+}
+
 }  // namespace
 
 Result<DeviceScene> DeviceScene::create(gpu::Device& device, const Scene& scene, const Hierarchy& hierarchy) {
@@ -160,6 +171,13 @@ Result<DeviceScene> DeviceScene::create(gpu::Device& device, const Scene& scene,
   images.move_to(made.texels_.address(), made.tables_.address());
   sent = upload->add(flat.meshes, made.meshes_);
   if (sent) sent = upload->add(images.textures, made.textures_);
+  std::vector<MeshBounds> bounds;
+  for (const Mesh& mesh : scene.meshes) {
+    bounds.push_back(bounds_of(scene, mesh));
+    for (const Vec3& position : mesh.positions) made.bounds_.grow(position);
+  }
+  if (sent) sent = upload->add(bounds, made.mesh_bounds_);
+  made.mesh_count_ = static_cast<std::uint32_t>(bounds.size());
   if (!sent) return sent.error();
   SceneRecord record{};
   record.nodes = made.nodes_.address(), record.triangles = made.triangles_.address();
@@ -180,7 +198,7 @@ Result<DeviceScene> DeviceScene::create(gpu::Device& device, const Scene& scene,
 std::uint64_t DeviceScene::bytes() const {
   std::uint64_t sum = 0;
   for (const gpu::Buffer* buffer : {&record_, &nodes_, &triangles_, &vertices_, &texels_, &tables_, &meshes_,
-                                    &materials_, &textures_, &environment_}) {
+                                    &materials_, &textures_, &environment_, &mesh_bounds_}) {
     sum += buffer->bytes();
   }
   return sum;

@@ -15,6 +15,7 @@
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer SceneAt { SceneRecord value; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer MeshRecords { MeshRecord value[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer MaterialRecords { MaterialRecord value[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SlotRecords { SlotRecord value[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer TextureRecords { TextureRecord value[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FloatsAt { float value[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer WordsAt { uint value[]; };
@@ -79,22 +80,41 @@ Coordinates coordinates_of(MeshRecord mesh, Corners c, float doubled_area, float
   return made;
 }
 
-// White where the slot has no texture, as the format says.
+vec2 moved_by(SlotRecord slot, vec2 uv) {
+  return vec2(slot.a * uv.x + slot.b * uv.y + slot.offset[0], slot.c * uv.x + slot.d * uv.y + slot.offset[1]);
+}
+
 vec4 look_up(SlotRecord slot, Coordinates at) {
-  if (slot.texture == kNoTexture) return vec4(1.0);
   const TextureRecord texture_ = TextureRecords(scene().textures).value[slot.texture];
   const bool second = slot.uv_set != 0u;
-  const vec2 uv = second ? at.uv[1] : at.uv[0];
   const float density = (second ? at.area_per_area[1] : at.area_per_area[0]) * abs(slot.a * slot.d - slot.b * slot.c);
   const float texels = float(texture_.width) * float(texture_.height);
   const float lod = texture_level_of_detail(density, texels, at.cone_width, at.cos_at_surface);
-  const vec2 moved = vec2(slot.a * uv.x + slot.b * uv.y + slot.offset[0], slot.c * uv.x + slot.d * uv.y + slot.offset[1]);
-  return sample_texture(texture_, moved, lod);
+  return sample_texture(texture_, moved_by(slot, second ? at.uv[1] : at.uv[0]), lod);
 }
 
-vec4 base_colour_and_alpha(MeshRecord mesh, MaterialRecord material, Corners c, Coordinates at) {
-  vec4 colour = look_up(material.base_colour_texture, at) *
-                vec4(material.base_colour[0], material.base_colour[1], material.base_colour[2], material.base_colour[3]);
+// What the slots of a material hold at a point, white where they have no texture, as the format says.
+struct SlotTexels {
+  vec4 value[kMaterialSlots];
+};
+
+// One text of a look-up, in a loop over the slots: kernels with four took software Vulkan seconds to compile.
+//   wanted  bit s: slot s
+SlotTexels look_up_slots(uint material, uint wanted, Coordinates at) {
+  SlotRecords slots = SlotRecords(scene().materials + uint64_t(material) * kMaterialBytes);
+  SlotTexels texels;
+  for (uint s = 0u; s < kMaterialSlots; ++s) {
+    texels.value[s] = vec4(1.0);
+    if ((wanted >> s & 1u) != 0u && slots.value[s].texture != kNoTexture) {
+      texels.value[s] = look_up(slots.value[s], at);
+    }
+  }
+  return texels;
+}
+
+vec4 base_colour_and_alpha(MeshRecord mesh, MaterialRecord material, Corners c, vec4 texel) {
+  vec4 colour = texel * vec4(material.base_colour[0], material.base_colour[1], material.base_colour[2],
+                             material.base_colour[3]);
   if (mesh.colours != 0ul) colour *= mixed4(mesh.colours, c);
   return clamp(colour, vec4(0.0), vec4(1.0));
 }
@@ -104,7 +124,14 @@ bool stops_ray(uint mesh_index, uint triangle, vec2 uv) {
   const MeshRecord mesh = MeshRecords(scene().meshes).value[mesh_index];
   const MaterialRecord material = MaterialRecords(scene().materials).value[mesh.material];
   const Corners c = corners_of(mesh, triangle, uv);
-  return base_colour_and_alpha(mesh, material, c, coordinates_of(mesh, c, 0.0, 0.0, 1.0)).w >= material.least_alpha;
+  const SlotRecord slot = material.base_colour_texture;
+  vec4 texel = vec4(1.0);
+  if (slot.texture != kNoTexture) {
+    Coordinates at;
+    set_coordinates(at, 0, slot.uv_set != 0u ? mesh.uv[1] : mesh.uv[0], c, 0.0);
+    texel = sample_finest_level(TextureRecords(scene().textures).value[slot.texture], moved_by(slot, at.uv[0]));
+  }
+  return base_colour_and_alpha(mesh, material, c, texel).w >= material.least_alpha;
 }
 
 Hit trace_scene(Ray ray, bool any) {
@@ -120,25 +147,24 @@ struct Surface {
   uint material;
 };
 
-vec3 shading_normal_of(MeshRecord mesh, MaterialRecord material, Corners c, Coordinates at, vec3 front_normal,
+bool has_normal_map(MeshRecord mesh, MaterialRecord material) {
+  return material.normal_texture.texture != kNoTexture && mesh.tangents != 0ul;
+}
+
+vec3 shading_normal_of(MeshRecord mesh, MaterialRecord material, Corners c, vec4 texel, vec3 front_normal,
                        vec3 geometric_normal, vec3 ray_direction) {
   vec3 normal = front_normal;
   if (mesh.normals != 0ul) normal = normalize_or(mixed3(mesh.normals, c), front_normal);
   const bool towards_viewer = dot(normal, geometric_normal) >= 0.0;
-  if (material.normal_texture.texture != kNoTexture && mesh.tangents != 0ul) {
+  if (has_normal_map(mesh, material)) {
     const vec4 along = mixed4(mesh.tangents, c);
-    normal = mapped_normal(normal, along.xyz, along.w < 0.0 ? -1.0 : 1.0, look_up(material.normal_texture, at).xyz,
-                           material.normal_scale);
+    normal = mapped_normal(normal, along.xyz, along.w < 0.0 ? -1.0 : 1.0, texel.xyz, material.normal_scale);
   }
   return kept_visible(towards_viewer ? normal : -normal, geometric_normal, -ray_direction);
 }
 
-SurfaceBrdf reflection_of(MaterialRecord material, vec3 base_colour, Coordinates at) {
+SurfaceBrdf reflection_of(MaterialRecord material, vec3 base_colour, vec4 texel) {
   const float least_alpha = 1e-3;  // kLeastGgxAlpha of scene/surface.h
-  vec4 texel = vec4(1.0);
-  if (material.metallic_override < 0.0 || material.ggx_alpha_override < 0.0) {
-    texel = look_up(material.metallic_roughness_texture, at);
-  }
   const float metallic = material.metallic_override >= 0.0 ? material.metallic_override : material.metallic * texel.z;
   const float roughness = material.roughness * texel.y;
   const float ggx_alpha = material.ggx_alpha_override >= 0.0 ? material.ggx_alpha_override : roughness * roughness;
@@ -161,17 +187,20 @@ Surface surface_at(uint mesh_index, uint triangle, vec2 uv, vec3 ray_direction, 
   const float cosine = dot(front_normal, ray_direction);
   const bool front = cosine <= 0.0;
   const Coordinates at = coordinates_of(mesh, c, doubled_area, cone_width, abs(cosine));
+  const bool asks_roughness = material.metallic_override < 0.0 || material.ggx_alpha_override < 0.0;
+  const bool emits = material.emits != 0u && (front || material.double_sided != 0u);
+  const uint wanted = 1u << kSlotOfBaseColour | (asks_roughness ? 1u << kSlotOfRoughness : 0u) |
+                      (has_normal_map(mesh, material) ? 1u << kSlotOfNormal : 0u) | (emits ? 1u << kSlotOfEmission : 0u);
+  const SlotTexels texels = look_up_slots(mesh.material, wanted, at);
   Surface made;
   made.material = mesh.material;
   made.position = mixed3(mesh.positions, c);
   made.geometric_normal = front ? front_normal : -front_normal;
   made.shading_normal =
-      shading_normal_of(mesh, material, c, at, front_normal, made.geometric_normal, ray_direction);
-  made.brdf = reflection_of(material, base_colour_and_alpha(mesh, material, c, at).xyz, at);
-  made.emission = vec3(0.0);
-  if (material.emits != 0u && (front || material.double_sided != 0u)) {
-    made.emission = vector(material.emission) * look_up(material.emissive_texture, at).xyz;
-  }
+      shading_normal_of(mesh, material, c, texels.value[kSlotOfNormal], front_normal, made.geometric_normal, ray_direction);
+  const vec4 colour = base_colour_and_alpha(mesh, material, c, texels.value[kSlotOfBaseColour]);
+  made.brdf = reflection_of(material, colour.xyz, texels.value[kSlotOfRoughness]);
+  made.emission = emits ? vector(material.emission) * texels.value[kSlotOfEmission].xyz : vec3(0.0);
   return made;
 }
 

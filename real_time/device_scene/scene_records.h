@@ -30,6 +30,11 @@ struct SlotRecord {
   float a, b, c, d, offset[2];
 };
 
+// A material's slots, in the order of its record.
+const word_ kSlotOfBaseColour = 0u, kSlotOfRoughness = 1u, kSlotOfNormal = 2u, kSlotOfEmission = 3u,
+            kMaterialSlots = 4u;
+
+const word_ kMaterialBytes = 208u;
 struct MaterialRecord {
   SlotRecord base_colour_texture, metallic_roughness_texture, normal_texture, emissive_texture;
   float base_colour[4];
@@ -54,6 +59,13 @@ struct MeshRecord {
   word_ unused;
 };
 
+// What is asked of a mesh before any of its triangles.
+struct MeshBounds {
+  float low[3], high[3];  // world [m]; low above high where there is no vertex
+  word_ triangles;
+  word_ has_holes;  // not 0: the alpha of a triangle's points decides whether they are there
+};
+
 struct SceneRecord {
   address_ nodes, triangles;  // HierarchyNode, HierarchyTriangle
   address_ meshes, materials, textures;
@@ -66,7 +78,9 @@ struct SceneRecord {
 
 #if defined(__cplusplus)
 static_assert(sizeof(TextureRecord) == 56 && sizeof(SlotRecord) == 32);
-static_assert(sizeof(MaterialRecord) == 208 && offsetof(MaterialRecord, base_colour) == 128);
+static_assert(sizeof(MaterialRecord) == kMaterialBytes && offsetof(MaterialRecord, base_colour) == 128);
+static_assert(offsetof(MaterialRecord, emissive_texture) == kSlotOfEmission * sizeof(SlotRecord));
+static_assert(sizeof(MeshBounds) == 32 && offsetof(MeshBounds, triangles) == 24);
 static_assert(sizeof(MeshRecord) == 64 && sizeof(SceneRecord) == 80 && offsetof(SceneRecord, root) == 56);
 #endif
 

@@ -2,6 +2,7 @@
 // For tests: surfaces of a scene, one per invocation.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "base/vectors.glsl"
 #include "real_time/device_scene/scene.glsl"
 #include "real_time/device_scene/probe_records.h"
 
@@ -11,7 +12,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer An
 layout(push_constant, scalar) uniform Push { ProbePush push; };
 
 SceneRecord scene() { return SceneAt(push.scene).value; }
-float[3] numbers(vec3 v) { return float[3](v.x, v.y, v.z); }
 
 void main() {
   const uint i = gl_GlobalInvocationID.x;

@@ -59,7 +59,15 @@ vec4 sample_texture(TextureRecord t, vec2 uv, float lod) {
   if (t.mip_filter == kMipNearest) level = min(floor(level + 0.5), coarsest);
   const uint fine = uint(level);
   const float blend = level - float(fine);
-  vec4 value = sample_level(t, fine, at, linear);
-  if (blend > 0.0) value = value * (1.0 - blend) + sample_level(t, fine + 1u, at, linear) * blend;
+  // A loop, so that the text of a level stands in the kernel once.
+  vec4 value = vec4(0.0);
+  for (uint i = 0u; i < (blend > 0.0 ? 2u : 1u); ++i) {
+    value += sample_level(t, fine + i, at, linear) * (i == 0u ? 1.0 - blend : blend);
+  }
   return value;
+}
+
+// The same of the finest level, without a loop: for the loop of trace.
+vec4 sample_finest_level(TextureRecord t, vec2 uv) {
+  return sample_level(t, 0u, vec2(reduced(uv.x, t.wrap_u), reduced(uv.y, t.wrap_v)), t.magnify_linear != 0u);
 }

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <vector>
 
 #include "base/isa.h"
 #include "base/parallel.h"
 #include "real_time/direct_light/direct_light_kernel.h"
+#include "real_time/direct_light/direct_sources.h"
 
 namespace luciole {
 namespace {
@@ -32,26 +32,12 @@ DirectPixels planes_of(const GeometryBuffer& geometry) {
   return pixels;
 }
 
-DirectSource source_of(const PunctualLight& light) {
-  DirectSource source{};
-  source.sun = light.kind == PunctualLight::Kind::directional;
-  copy(light.position, source.position);
-  copy(light.direction, source.direction);
-  copy(light.intensity, source.colour);
-  source.offset = 1;
-  if (light.kind == PunctualLight::Kind::spot) {
-    source.scale = 1 / ramp_width(light);
-    source.offset = -light.cos_outer * source.scale;
-  }
-  return source;
-}
-
 // Lights and the planes that they light.
 struct DirectPass {
   const RayScene& rays;
   const GeometryBuffer& geometry;
   DirectPixels pixels;
-  std::vector<PunctualLight> lights;
+  PrimaryLights lights;
   std::vector<DirectSource> sources;
   Isa isa;
 };
@@ -100,12 +86,8 @@ void light_group(const DirectPass& pass, std::size_t first, Plane3& out) {
 }  // namespace
 
 Plane3 direct_light(const RayScene& rays, const GeometryBuffer& geometry, const PrimaryLights& primaries, Isa isa) {
-  DirectPass pass{rays, geometry, planes_of(geometry), primaries, {}, isa};
-  for (const std::uint32_t index : other_lights(rays.scene(), primaries)) {
-    const PunctualLight& light = rays.scene().lights[index];
-    if (light.kind == PunctualLight::Kind::directional) pass.lights.push_back(light);
-  }
-  for (const PunctualLight& light : pass.lights) pass.sources.push_back(source_of(light));
+  const PrimaryLights lights = direct_lights(rays.scene(), primaries);
+  const DirectPass pass{rays, geometry, planes_of(geometry), lights, direct_sources(lights), isa};
   Plane3 radiance;
   for (Plane& plane : radiance) plane.resize(geometry.pixel_count());
   const std::size_t groups = (geometry.pixel_count() + kDirectLanes - 1) / kDirectLanes;

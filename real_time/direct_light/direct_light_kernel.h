@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "real_time/direct_light/direct_records.h"
+
 namespace luciole {
 
 inline constexpr int kDirectLanes = 16;
@@ -12,17 +14,6 @@ inline constexpr int kDirectLanes = 16;
 struct DirectPixels {
   const float *position[3], *normal[3], *geometric_normal[3], *diffuse_albedo[3], *f0[3], *f90, *ggx_alpha;
   float eye[3];
-};
-
-// A point, spot or directional light in one form: what a direction w (towards the light) receives is
-//   colour * fall_off * t^2,  t = clamp(-w . direction * scale + offset, 0, 1)
-// with fall_off 1/l^2, or 1 for a sun; scale 0 and offset 1 without a cone.
-struct DirectSource {
-  bool sun;
-  float position[3];   // [m]; not for a sun
-  float direction[3];  // unit, away from the light; not for a point
-  float colour[3];     // [W/sr]; a sun's irradiance [W/m^2]
-  float scale, offset;
 };
 
 struct alignas(64) DirectReflection {

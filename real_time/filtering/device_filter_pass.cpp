@@ -42,7 +42,7 @@ void DeviceFilterPass::record(gpu::CommandList& list, const FilterBuffers& buffe
   copy(geometry.camera.right, push.right), copy(geometry.camera.up, push.up);
   copy(geometry.camera.forward, push.forward);
   push.footprint = view.footprint, push.left_edge = view.left_edge, push.top_edge = view.top_edge;
-  push.weight = weight_;
+  push.weight = buffers.weighed ? 1.0f : weight_;
   push.width = geometry.width, push.height = geometry.height;
   list.fill(*buffers.counts, 0);
   list.barrier();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pass filtering on a Vulkan device: the kernel filter_pixels.comp. It makes what BilateralFilterPass makes, from the
-// sums that shading left on the device.
+// sums that shading, or accumulation after it, left on the device.
 #pragma once
 #include "gpu/command_list.h"
 #include "real_time/filtering/filter_radius.h"
@@ -15,11 +15,12 @@ struct FilterBuffers {
   const gpu::Buffer* more_sums;  // to be added to these; null: none
   const gpu::Buffer* filtered;   // PixelLight, per pixel; 0 for the sky
   const gpu::Buffer* counts;     // FilterCounts
+  bool weighed = false;          // the sums have the weight n^2 already: those of DeviceAccumulationPass
 };
 
 class DeviceFilterPass {
  public:
-  //   interleave  n: the sums are weighted by n^2
+  //   interleave  n: sums that are not weighed are weighted by n^2
   static Result<DeviceFilterPass> create(gpu::Device& device, FilterRadius radius, std::uint32_t interleave);
 
   // Of `geometry` the size and the camera.

@@ -12,8 +12,7 @@
 #include "equations/shading_language.h"
 #include "real_time/filtering/bilateral_weight.h"
 #include "real_time/filtering/demodulation.h"
-#include "real_time/filtering/filter_records.h"
-#include "real_time/shading/shading_records.h"
+#include "real_time/filtering/pixel_light.glsl"
 
 const int kThreads = 256;
 const int kPixels = kFilterGroupRows * kFilterGroupColumns / kThreads;  // of an invocation, in a column
@@ -24,8 +23,6 @@ layout(local_size_x = 256) in;
 layout(constant_id = 0) const int kRadiusX = 8;
 layout(constant_id = 1) const int kRadiusY = 8;
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pixels { PixelRecord value[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Sums { PixelSums value[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Filtered { PixelLight value[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Counts { FilterCounts value; };
 layout(push_constant, scalar) uniform Push { FilterPush push; };
@@ -34,31 +31,7 @@ shared vec4 guides[kRows * kAcross];    // normal, 1/depth [1/m]
 shared vec4 diffuse[kRows * kAcross];   // demodulated light; 1 where the surface reflects diffusely, else all are 0
 shared vec4 specular[kRows * kAcross];  // demodulated light, alpha
 
-vec3 vector(float v[3]) { return vec3(v[0], v[1], v[2]); }
-float[3] numbers(vec3 v) { return float[3](v.x, v.y, v.z); }
-
-// By its bits: what arithmetic says of numbers that are none is up to the device.
-bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
-bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
-
-struct Light {
-  vec3 diffuse, specular;
-};
-bool is_finite(Light light) { return is_finite(light.diffuse) && is_finite(light.specular); }
-
-// Of a pixel with a surface: nobody writes the sums of the sky.
-Light noisy_light(uint index) {
-  const PixelSums sums = Sums(push.sums).value[index];
-  Light light;
-  light.diffuse = vector(sums.diffuse) * push.weight;
-  light.specular = vector(sums.specular) * push.weight;
-  if (push.more_sums != 0ul) {
-    const PixelSums more = Sums(push.more_sums).value[index];
-    light.diffuse += vector(more.diffuse) * push.weight;
-    light.specular += vector(more.specular) * push.weight;
-  }
-  return light;
-}
+Light noisy_light(uint index) { return noisy_light(push.sums, push.more_sums, push.weight, index); }
 
 bool is_on_screen(ivec2 pixel) {
   return pixel.x >= 0 && pixel.y >= 0 && pixel.x < int(push.width) && pixel.y < int(push.height);

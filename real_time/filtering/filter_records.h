@@ -30,7 +30,7 @@ struct FilterPush {
   float right[3], up[3], forward[3];  // the camera's axes, unit
   float footprint;                    // width of a pixel at depth 1 [1]
   float left_edge, top_edge;          // where the sample of pixel (0, 0) lies from the axis [pixels right, down]
-  float weight;                       // of the sums, n^2
+  float weight;                       // of the sums: n^2, or 1 where they have it already
   word_ width, height;
   word_ unused;
 };

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "real_time/filtering/past_view.h"
 #include "real_time/shading/radiance.h"
 
 namespace luciole {
@@ -40,10 +41,7 @@ class TemporalAccumulationPass {
     float diffuse_frames, specular_frames;  // 0: the sky
   };
   struct Past {
-    Camera camera;
-    float sub_pixel_x = 0, sub_pixel_y = 0;
-    std::uint32_t width = 0, height = 0;
-    std::uint64_t view = 0;
+    FrameView view;
     AlignedVector<PastSurface> surface;
     AlignedVector<PastLight> indirect, many;  // many: none without such light
   };

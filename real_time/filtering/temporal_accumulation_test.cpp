@@ -236,6 +236,25 @@ TEST(TemporalAccumulation, soon_forgets_what_smooth_surfaces_reflected_elsewhere
   }
 }
 
+// Before there is a past, its camera is nowhere in particular, be it at the surface itself.
+TEST(TemporalAccumulation, begins_where_no_camera_was) {
+  Stage stage;
+  const RayScene rays = std::move(*RayScene::create(stage.scene));
+  GeometryBuffer geometry;
+  render_geometry_buffer({rays, stage.camera, 60, 45}, geometry);
+  const std::size_t pixel = geometry.pixel_count() / 2;
+  for (Plane& axis : geometry.position) axis[pixel] = 0;
+  Radiance light, none;
+  light.resize(geometry.pixel_count());
+  for (Plane3* planes : {&light.diffuse, &light.specular}) {
+    for (Plane& plane : *planes) std::fill(plane.begin(), plane.end(), 1.0f);
+  }
+  TemporalAccumulationPass pass;
+  pass.run({geometry, 1, 100}, light, none);
+  EXPECT_EQ(light.specular[0][pixel], 1.0f);
+  EXPECT_EQ(pass.frames()[pixel], 1.0f);
+}
+
 TEST(TemporalAccumulation, leaves_out_light_that_is_not_finite) {
   MadeUpLight room;
   room.add_frame(0, 1.0f, 0.1f);

@@ -58,8 +58,7 @@ Result<DeviceGeometryPass> DeviceGeometryPass::create(gpu::Device& device) {
   return pass;
 }
 
-void DeviceGeometryPass::record(gpu::CommandList& list, const DeviceScene& scene, const DeviceView& view,
-                                const GeometryOnDevice& to) const {
+GeometryPush geometry_push(const DeviceScene& scene, const DeviceView& view, const GeometryOnDevice& to) {
   const ScreenRays screen(view.camera, view.width, view.height, view.sub_pixel);
   GeometryPush push{};
   push.scene = scene.address(), push.pixels = to.pixels.address(), push.surfaces = to.surfaces.address();
@@ -68,10 +67,22 @@ void DeviceGeometryPass::record(gpu::CommandList& list, const DeviceScene& scene
   copy(screen.across, push.across), copy(screen.down, push.down);
   push.pixel_size = screen.pixel_size;
   push.width = view.width, push.height = view.height;
+  return push;
+}
+
+void DeviceGeometryPass::record(gpu::CommandList& list, const DeviceScene& scene, const DeviceView& view,
+                                const GeometryOnDevice& to) const {
   list.begin_pass("geometry_buffer");
   list.fill(to.unfinished, 0);
   list.barrier();
-  list.dispatch(kernel_, push, (view.width + kGroup - 1) / kGroup, (view.height + kGroup - 1) / kGroup);
+  list.dispatch(kernel_, geometry_push(scene, view, to), (view.width + kGroup - 1) / kGroup,
+                (view.height + kGroup - 1) / kGroup);
+}
+
+Status all_finished(word_ unfinished) {
+  if (unfinished == 0) return Done{};
+  return Error{ErrorKind::failed, std::to_string(unfinished) +
+                                      " rays met more of the scene than a device's kernel can ask: use --front cpu"};
 }
 
 Status read_back(gpu::Device& device, const GeometryOnDevice& from, const DeviceView& view, GeometryBuffer& to) {
@@ -93,11 +104,7 @@ Status read_back(gpu::Device& device, const GeometryOnDevice& from, const Device
     received.push_back(std::move(*one));
   }
   if (Status done = list->run(); !done) return done;
-  const word_ unfinished = *received[2].as<word_>();
-  if (unfinished > 0) {
-    return Error{ErrorKind::failed,
-                 std::to_string(unfinished) + " rays met more of the scene than a device's kernel can ask"};
-  }
+  if (Status finished = all_finished(*received[2].as<word_>()); !finished) return finished;
   unpack(received[0].as<PixelRecord>(), received[1].as<SurfaceRecord>(), to);
   return Done{};
 }

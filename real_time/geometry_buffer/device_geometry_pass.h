@@ -36,6 +36,12 @@ class DeviceGeometryPass {
   gpu::Kernel kernel_;
 };
 
+// Failed unless that many rays are none.
+Status all_finished(word_ unfinished);
+
+// What the kernels of both passes are told.
+GeometryPush geometry_push(const DeviceScene& scene, const DeviceView& view, const GeometryOnDevice& to);
+
 // Brings what the pass wrote into the planes of a geometry buffer. Fails where rays met more than kernels can ask.
 Status read_back(gpu::Device& device, const GeometryOnDevice& from, const DeviceView& view, GeometryBuffer& to);
 

@@ -4,6 +4,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#include "base/vectors.glsl"
 #include "equations/light_emission.h"
 #include "equations/paper_tile_test.h"
 #include "equations/random_number.h"
@@ -19,9 +20,6 @@ const uint kSphereAtLight = 0u, kSphere = 1u, kSpheroid = 2u;
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Frame { RangeFrame value; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Bounds { BoundBlock block[]; };
 layout(push_constant, scalar) uniform Push { RangePush push; };
-
-vec3 vector(float v[3]) { return vec3(v[0], v[1], v[2]); }
-float[3] numbers(vec3 v) { return float[3](v.x, v.y, v.z); }
 
 // Stratified numbers are stratified within each interleaving subset: light_range_kernel.cpp says why.
 uint light_bits(RangeFrame f, uint key, uint dimension) {

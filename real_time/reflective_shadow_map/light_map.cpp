@@ -6,8 +6,13 @@
 #include <numbers>
 #include <numeric>
 
+#include "equations/cpp/float.h"
+
 namespace luciole {
 namespace {
+
+static_assert(kPointMap == word_(PunctualLight::Kind::point) && kSpotMap == word_(PunctualLight::Kind::spot) &&
+              kSunMap == word_(PunctualLight::Kind::directional));
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
@@ -46,9 +51,25 @@ TexelRay LightMap::ray(std::uint32_t texel, Vec2 within) const {
     return {origin, light_.direction, light_.intensity * parallel_area_};
   }
   const Vec3 direction = light_.kind == PunctualLight::Kind::spot
-                             ? normalize(frame_.world(cone_direction(point, light_.cos_outer)))
-                             : octahedral_direction(point);
+                             ? normalize(frame_.world(f32::cone_direction(point, light_.cos_outer)))
+                             : f32::octahedral_direction(point);
   return {light_.position, direction, intensity_towards(light_, direction) * solid_angle_};
+}
+
+LightMapRecord LightMap::record(std::uint32_t first_texel) const {
+  const auto put = [](Vec3 from, float(&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; };
+  const bool sun = light_.kind == PunctualLight::Kind::directional;
+  LightMapRecord record{};
+  record.kind = static_cast<word_>(light_.kind);
+  record.first_texel = first_texel, record.texels = size(), record.rows = cells_.rows();
+  put(sun ? rectangle_.corner : light_.position, record.origin);
+  put(sun ? rectangle_.right : frame_.right, record.right);
+  put(sun ? rectangle_.up : frame_.up, record.up), put(light_.direction, record.axis);
+  record.width = rectangle_.width, record.height = rectangle_.height;
+  record.cos_outer = light_.cos_outer, record.ramp = ramp_width(light_);
+  put(light_.intensity * (sun ? parallel_area_ : solid_angle_), record.flux);
+  record.solid_angle = solid_angle_, record.parallel_area = parallel_area_;
+  return record;
 }
 
 std::vector<std::uint32_t> share_texels(const std::vector<float>& powers, std::uint32_t total) {

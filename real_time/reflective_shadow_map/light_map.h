@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "real_time/reflective_shadow_map/basis.h"
 #include "real_time/reflective_shadow_map/cell_partition.h"
-#include "real_time/reflective_shadow_map/direction_maps.h"
+#include "real_time/reflective_shadow_map/light_map_records.h"
 #include "real_time/reflective_shadow_map/primary_light.h"
 
 namespace luciole {
@@ -17,8 +18,8 @@ struct TexelRay {
   Vec3 flux;       // Phi [W]: intensity there times the texel's solid angle, or irradiance times its area
 };
 
-// All texels of a map have the same measure, because the maps preserve area (direction_maps.h). With samples drawn
-// uniformly in the texels the mean of the summed flux is the light's power exactly.
+// All texels of a map have the same measure, because the maps preserve area (equations/direction_map.h). With samples
+// drawn uniformly in the texels the mean of the summed flux is the light's power exactly.
 class LightMap {
  public:
   LightMap(const PunctualLight& light, std::uint32_t texels, const Bounds& scene_bounds);
@@ -27,6 +28,8 @@ class LightMap {
   const CellPartition& cells() const { return cells_; }
   //   within  where in the texel, [0,1]^2; (.5, .5) is its centre
   TexelRay ray(std::uint32_t texel, Vec2 within) const;
+  // For kernels of a device, which make the rays by themselves.
+  LightMapRecord record(std::uint32_t first_texel) const;
   // Area across the ray that a texel stands for at some distance [m^2].
   float cross_section(float distance) const { return parallel_area_ + solid_angle_ * distance * distance; }
 

@@ -105,7 +105,7 @@ TEST(OctahedralMap, gives_equal_solid_angles_to_equal_areas) {
                           normalize(Vec3(-1, 1, -1))}) {
     const float cosine = 0.9f;
     const double expected = 0.05, sigma = std::sqrt(expected * (1 - expected) / kPoints);
-    EXPECT_LT(std::abs(share_in_cone(octahedral_direction, axis, cosine, kPoints) - expected), kSigmas * sigma);
+    EXPECT_LT(std::abs(share_in_cone(f32::octahedral_direction, axis, cosine, kPoints) - expected), kSigmas * sigma);
     plain_caught += std::abs(share_in_cone(plain, axis, cosine, kPoints) - expected) > 10 * sigma;
   }
   EXPECT_EQ(plain_caught, 6);
@@ -114,7 +114,7 @@ TEST(OctahedralMap, gives_equal_solid_angles_to_equal_areas) {
 TEST(ConeMap, fills_the_cone_evenly_and_nothing_else) {
   constexpr std::uint32_t kPoints = 200000;
   const float cos_outer = 0.8f;
-  const auto direction = [&](Vec2 p) { return cone_direction(p, cos_outer); };
+  const auto direction = [&](Vec2 p) { return f32::cone_direction(p, cos_outer); };
   double least = 1;
   for (std::uint32_t i = 0; i < 1000; ++i) {
     const Vec3 d = direction(random_point(3, i));
@@ -126,7 +126,7 @@ TEST(ConeMap, fills_the_cone_evenly_and_nothing_else) {
   const double expected = 0.5, sigma = std::sqrt(0.25 / kPoints);  // half of the solid angle above cos = 0.9
   EXPECT_LT(std::abs(share_in_cone(direction, Vec3(0, 0, 1), 0.9f, kPoints) - expected), kSigmas * sigma);
   const auto linear = [&](Vec2 p) {  // radius without Lambert's rule, the control
-    Vec3 d = cone_direction(p, cos_outer);
+    Vec3 d = f32::cone_direction(p, cos_outer);
     const float t = std::sqrt((1 - d.z) / (1 - cos_outer));
     d.z = 1 - (1 - cos_outer) * t;
     return d;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "real_time/reflective_shadow_map/direction_maps.h"
+#include "real_time/reflective_shadow_map/basis.h"
 
 namespace luciole {
 namespace {

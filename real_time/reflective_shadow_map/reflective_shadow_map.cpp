@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/fold_seed.h"
 #include "base/parallel.h"
 #include "equations/cpp/float.h"
 #include "scene/surface.h"
@@ -20,9 +19,9 @@ constexpr std::size_t kGrain = 16;            // packets per unit of work
 constexpr float kLeastCosine = 1e-4f;
 
 Vec2 place_in_texel(const TexelSampling& sampling, std::uint32_t key) {
-  if (sampling.vpl_seed == 0 && !sampling.jitter) return {0.5f, 0.5f};
-  const std::uint32_t frame = sampling.jitter ? folded(sampling.frame) : 0;
-  const f32::RandomWords words = f32::random_words(folded(sampling.vpl_seed), frame, key, kDimensionTexel);
+  if (!sampling.is_random()) return {0.5f, 0.5f};
+  const f32::RandomWords words =
+      f32::random_words(folded(sampling.vpl_seed), sampling.frame_word(), key, kDimensionTexel);
   return {f32::unit_real(words.first), f32::unit_real(words.second)};
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/fold_seed.h"
 #include "ray_tracing/ray_scene.h"
 #include "real_time/reflective_shadow_map/light_map.h"
 #include "real_time/reflective_shadow_map/primary_light.h"
@@ -29,6 +30,9 @@ struct TexelSampling {
   std::uint64_t vpl_seed = 0;  // 0: at the centre
   bool jitter = false;         // a new place each frame, also for seed 0
   std::uint64_t frame = 0;
+
+  bool is_random() const { return vpl_seed != 0 || jitter; }
+  std::uint32_t frame_word() const { return jitter ? folded(frame) : 0; }  // of the random numbers
 };
 
 // The maps of all primary lights, numbered through: texel i of map m has the key first_texel(m) + i.

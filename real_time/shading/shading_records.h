@@ -51,9 +51,25 @@ struct ShadingPush {
   word_ first_light, light_count;  // which part of each subset: parts are added one after the other
 };
 
+// For kernels with shadow rays.
+struct ShadowRecord {
+  address_ scene;        // SceneRecord
+  address_ unfinished;   // word: how many rays ended before they had asked everything on their way
+  float surface_offset;  // RayScene::surface_offset [m]
+  word_ unused;
+};
+
+// What they are told.
+struct ShadowedShadingPush {
+  ShadingPush shading;
+  address_ shadows;  // ShadowRecord
+};
+
 #if defined(__cplusplus)
 static_assert(sizeof(PixelRecord) == 64 && offsetof(PixelRecord, f0) == 48);
 static_assert(sizeof(PixelSums) == 32 && sizeof(TileCounts) == 24 && sizeof(SubsetRange) == 8);
+static_assert(sizeof(ShadowRecord) == 24 && offsetof(ShadowedShadingPush, shadows) == 112);
+static_assert(sizeof(ShadowedShadingPush) <= 128);
 static_assert(sizeof(ShadingPush) <= 128 && offsetof(ShadingPush, light_count) == 104);
 #endif
 

@@ -6,6 +6,7 @@
 namespace luciole {
 
 extern const gpu::ShaderCode shade_tiles;
+extern const gpu::ShaderCode shade_tiles_with_shadows;
 
 namespace {
 
@@ -18,14 +19,33 @@ TileGrid tile_grid(std::uint32_t width, std::uint32_t height, std::uint32_t inte
   return {(width + side - 1) / side, (height + side - 1) / side, interleave * interleave};
 }
 
+std::vector<std::uint32_t> shading_constants(const Settings& settings, LightKind kind) {
+  return {kind, static_cast<std::uint32_t>(settings.tile_test), settings.culling == Culling::tiled ? 1u : 0u,
+          settings.ranges == Ranges::stochastic ? 1u : 0u};
+}
+
+ShadingPush shading_push(const ShadingBuffers& buffers, const GeometryBuffer& geometry, std::uint32_t interleave,
+                         std::uint32_t shift, LightPart part) {
+  ShadingPush push{};
+  push.pixels = buffers.pixels->address(), push.subsets = buffers.subsets->address();
+  push.emitters = buffers.lights->emitters.address(), push.bounds = buffers.lights->bounds.address();
+  push.sums = buffers.sums->address(), push.tile_counts = buffers.tile_counts->address();
+  const Camera& camera = geometry.camera;
+  copy(camera.eye, push.eye), copy(camera.right, push.right), copy(camera.up, push.up);
+  push.width = geometry.width, push.height = geometry.height, push.interleave = interleave;
+  push.shift = shift;
+  push.first_light = part.first, push.light_count = part.count;
+  return push;
+}
+
 Result<TileShadingPass> TileShadingPass::create(gpu::Device& device, const Settings& settings) {
   TileShadingPass pass;
   pass.interleave_ = settings.interleave;
-  for (std::uint32_t kind = 0; kind < kLightKinds; ++kind) {
-    const std::vector<std::uint32_t> constants = {kind, static_cast<std::uint32_t>(settings.tile_test),
-                                                  settings.culling == Culling::tiled ? 1u : 0u,
-                                                  settings.ranges == Ranges::stochastic ? 1u : 0u};
-    Result<gpu::Kernel> kernel = gpu::Kernel::create(device, shade_tiles, sizeof(ShadingPush), constants);
+  for (const LightKind kind : {kDiffuseLights, kGlossyLights, kManyLights}) {
+    const bool shadows = settings.direct_shadows && kind == kManyLights;
+    Result<gpu::Kernel> kernel = gpu::Kernel::create(device, shadows ? shade_tiles_with_shadows : shade_tiles,
+                                                     shadows ? sizeof(ShadowedShadingPush) : sizeof(ShadingPush),
+                                                     shading_constants(settings, kind));
     if (!kernel) return kernel.error();
     pass.kernels_[kind] = std::move(*kernel);
   }
@@ -34,17 +54,14 @@ Result<TileShadingPass> TileShadingPass::create(gpu::Device& device, const Setti
 
 void TileShadingPass::record(gpu::CommandList& list, LightKind kind, const ShadingBuffers& buffers,
                              const GeometryBuffer& geometry, std::uint32_t shift, LightPart part) const {
-  ShadingPush push{};
-  push.pixels = buffers.pixels->address(), push.subsets = buffers.subsets->address();
-  push.emitters = buffers.lights->emitters.address(), push.bounds = buffers.lights->bounds.address();
-  push.sums = buffers.sums->address(), push.tile_counts = buffers.tile_counts->address();
-  const Camera& camera = geometry.camera;
-  copy(camera.eye, push.eye), copy(camera.right, push.right), copy(camera.up, push.up);
-  push.width = geometry.width, push.height = geometry.height, push.interleave = interleave_;
-  push.shift = shift;
-  push.first_light = part.first, push.light_count = part.count;
+  const ShadingPush push = shading_push(buffers, geometry, interleave_, shift, part);
   const TileGrid grid = tile_grid(geometry.width, geometry.height, interleave_);
-  list.dispatch(kernels_[kind], push, grid.columns, grid.rows, grid.regions);
+  if (kind == kManyLights && buffers.shadows != nullptr) {
+    const ShadowedShadingPush shadowed{push, buffers.shadows->address()};
+    list.dispatch(kernels_[kind], shadowed, grid.columns, grid.rows, grid.regions);
+  } else {
+    list.dispatch(kernels_[kind], push, grid.columns, grid.rows, grid.regions);
+  }
 }
 
 }  // namespace luciole

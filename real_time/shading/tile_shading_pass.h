@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "gpu/command_list.h"
 #include "real_time/geometry_buffer/geometry_buffer.h"
@@ -24,14 +25,22 @@ struct ShadingBuffers {
   const gpu::Buffer* pixels;   // PixelRecord
   const gpu::Buffer* subsets;  // SubsetRange
   const LightsOnDevice* lights;
-  const gpu::Buffer* sums;         // PixelSums, per pixel
-  const gpu::Buffer* tile_counts;  // TileCounts, per tile
+  const gpu::Buffer* sums;               // PixelSums, per pixel
+  const gpu::Buffer* tile_counts;        // TileCounts, per tile
+  const gpu::Buffer* shadows = nullptr;  // ShadowRecord, where the settings want shadow rays
 };
 
 // Lights [first, first + count) of each subset.
 struct LightPart {
   std::uint32_t first, count;
 };
+
+// What the kernel is told of one part of the lights of one kind.  shift: as in ShadingInputs
+ShadingPush shading_push(const ShadingBuffers& buffers, const GeometryBuffer& geometry, std::uint32_t interleave,
+                         std::uint32_t shift, LightPart part);
+
+// The values of its specialisation constants.
+std::vector<std::uint32_t> shading_constants(const Settings& settings, LightKind kind);
 
 class TileShadingPass {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "real_time/composition.h"
+#include "real_time/composition/composition.h"
 
 #include <functional>
 #include <map>

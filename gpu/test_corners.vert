@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the tests of this room draw: triangles whose corners lie in a buffer.
+#version 460
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_scalar_block_layout : require
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Corners { vec4 position[]; };
+layout(push_constant, scalar) uniform Push {
+  Corners corners;
+  uint word;
+};
+layout(location = 0) flat out uint number;
+
+void main() {
+  gl_Position = corners.position[gl_VertexIndex];
+  number = gl_InstanceIndex;
+}
