@@ -16,20 +16,24 @@ function(luciole_test_program name)
   target_link_libraries(${name} PRIVATE luciole_flags ${TEST_LINK} GTest::gtest GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE LUCIOLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                              LUCIOLE_SCRATCH_DIR="${CMAKE_CURRENT_BINARY_DIR}")
+  if(LUCIOLE_SANITIZE)
+    target_compile_options(${name} PRIVATE -O0)  # instrumented expectations take longer to compile than to run
+  endif()
 endfunction()
 
-# luciole_test(name SOURCES a_test.cpp LINK luciole_image ... [LABEL statistical])
+# luciole_test(name SOURCES a_test.cpp LINK luciole_image ... [LABEL statistical] [ONE_THREAD])
 # One test program; its label is `unit` (fast) unless it is said to be `statistical` (slow, still in ./do test; not built
-# with sanitizers, under which ./do check runs units alone).
+# with sanitizers, under which ./do check runs units alone). ONE_THREAD: what it tests starts no other, so that the thread
+# sanitizer has nothing to see.
 function(luciole_test name)
   if(NOT LUCIOLE_TESTS)
     return()
   endif()
-  cmake_parse_arguments(TEST "" "LABEL" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(TEST "ONE_THREAD" "LABEL" "SOURCES;LINK" ${ARGN})
   if(NOT TEST_LABEL)
     set(TEST_LABEL unit)
   endif()
-  if(LUCIOLE_SANITIZE AND NOT TEST_LABEL STREQUAL "unit")
+  if((LUCIOLE_SANITIZE AND NOT TEST_LABEL STREQUAL "unit") OR (LUCIOLE_SANITIZE MATCHES "thread" AND TEST_ONE_THREAD))
     return()
   endif()
   luciole_test_program(${name} SOURCES ${TEST_SOURCES} LINK ${TEST_LINK})
