@@ -12,15 +12,6 @@
 namespace luciole {
 namespace {
 
-std::vector<std::uint8_t> encode_pixels(const std::vector<Vec3>& pixels) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(pixels.size() * 3);
-  for (const Vec3& pixel : pixels) {
-    for (const float linear : {pixel.x, pixel.y, pixel.z}) bytes.push_back(srgb_code(linear));
-  }
-  return bytes;
-}
-
 // libpng leaves by longjmp when it fails: nothing with a destructor may live in this function.
 bool write_chunks(std::FILE* stream, const std::uint8_t* bytes, std::uint32_t width, std::uint32_t height) {
   png_structp png =
@@ -43,17 +34,21 @@ bool write_chunks(std::FILE* stream, const std::uint8_t* bytes, std::uint32_t wi
 
 }  // namespace
 
-Status write_png(const std::vector<Vec3>& pixels, std::uint32_t width, std::uint32_t height,
-                 const std::filesystem::path& path) {
+Status write_png_codes(const std::vector<std::uint8_t>& codes, std::uint32_t width, std::uint32_t height,
+                       const std::filesystem::path& path) {
   if (width == 0 || height == 0 || width > kMaxImageSide || height > kMaxImageSide) {
     return cannot_write(path, "its size is not within 1 to " + std::to_string(kMaxImageSide) + " pixels a side");
   }
-  if (pixels.size() != std::size_t(width) * height) return cannot_write(path, "the number of pixels is wrong");
+  if (codes.size() != std::size_t(width) * height * 3) return cannot_write(path, "the number of pixels is wrong");
   auto file = OutputFile::create(path);
   if (!file) return file.error();
-  const std::vector<std::uint8_t> bytes = encode_pixels(pixels);
-  if (!write_chunks(file->stream(), bytes.data(), width, height)) return cannot_write(path, "the PNG writer failed");
+  if (!write_chunks(file->stream(), codes.data(), width, height)) return cannot_write(path, "the PNG writer failed");
   return file->commit();
+}
+
+Status write_png(const std::vector<Vec3>& pixels, std::uint32_t width, std::uint32_t height,
+                 const std::filesystem::path& path) {
+  return write_png_codes(srgb_codes(pixels), width, height, path);
 }
 
 }  // namespace luciole

@@ -32,6 +32,8 @@ float srgb_decode(float encoded);
 
 // What an 8-bit file has for a display-linear value: the nearest code.
 std::uint8_t srgb_code(float linear);
+// The same of whole pictures: red, green, blue of each pixel.
+std::vector<std::uint8_t> srgb_codes(const std::vector<Vec3>& display);
 // Where the codes from 1 on begin: the smallest display-linear value of each.
 std::array<float, 255> srgb_code_edges();
 

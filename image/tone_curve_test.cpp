@@ -117,5 +117,20 @@ TEST(SrgbCodes, begin_at_their_edges_and_nowhere_else) {
   }
 }
 
+TEST(SrgbCodes, of_pictures_are_those_of_their_values) {
+  std::vector<Vec3> display = {{-1, 0, -0.0f}, {1, 2, std::nextafter(1.0f, 0.0f)}, {1e-40f, 1e-8f, NAN}};
+  for (const float edge : srgb_code_edges()) {
+    display.emplace_back(std::nextafter(edge, 0.0f), edge, std::nextafter(edge, 2.0f));
+  }
+  for (float x = 0; x <= 1; x += 3e-5f) display.emplace_back(x, x + 1e-5f, x + 2e-5f);
+  const std::vector<std::uint8_t> codes = srgb_codes(display);
+  ASSERT_EQ(codes.size(), 3 * display.size());
+  for (std::size_t i = 0; i < display.size(); ++i) {
+    ASSERT_EQ(codes[3 * i], srgb_code(display[i].x)) << display[i].x;
+    ASSERT_EQ(codes[3 * i + 1], srgb_code(display[i].y)) << display[i].y;
+    ASSERT_EQ(codes[3 * i + 2], srgb_code(display[i].z)) << display[i].z;
+  }
+}
+
 }  // namespace
 }  // namespace luciole

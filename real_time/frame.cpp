@@ -39,12 +39,23 @@ ShadingOutputs shade_on_cpu(const ShadingInputs& inputs, FrameStatistics& statis
   return shaded;
 }
 
+void show(float exposure, ToneCurve curve, Frame& frame) {
+  PassTimer timer(frame.statistics.passes_ms);
+  frame.shown = srgb_codes(to_display(frame.picture, exposure, curve));
+  timer.end("tone_curve");
+}
+
 }  // namespace
 
 // What of a frame's light a device has made ready.
 struct MadeOnDevice {
   std::optional<FilteredLight> filtered;
   std::optional<ComposedPicture> composed;
+};
+
+struct FrameWishes {
+  const std::vector<std::string>& layers;
+  std::optional<ToneCurve> shown;
 };
 
 struct Renderer::State {
@@ -61,8 +72,8 @@ struct Renderer::State {
   Status bring_to_host(std::uint64_t frame_index, View& seen, FrameStatistics& statistics);
   void give_up_device();
   float constant_xi(const View& seen, const ManyLights& many_lights);
-  Result<ShadingOutputs> shade_lights(View& seen, std::uint64_t frame_index, const std::vector<std::string>& layers,
-                                      Frame& frame, Prediction& prediction, MadeOnDevice& made);
+  Result<ShadingOutputs> shade_lights(View& seen, std::uint64_t frame_index, const FrameWishes& wishes, Frame& frame,
+                                      Prediction& prediction, MadeOnDevice& made);
   Result<std::optional<ShadingOutputs>> shade_on_device(const VulkanFrame& wanted, FrameStatistics& statistics,
                                                         MadeOnDevice& made);
 
@@ -180,8 +191,9 @@ Result<std::optional<ShadingOutputs>> Renderer::State::shade_on_device(const Vul
 }
 
 Result<ShadingOutputs> Renderer::State::shade_lights(View& seen, std::uint64_t frame_index,
-                                                     const std::vector<std::string>& layers, Frame& frame,
-                                                     Prediction& prediction, MadeOnDevice& made) {
+                                                     const FrameWishes& wishes, Frame& frame, Prediction& prediction,
+                                                     MadeOnDevice& made) {
+  const std::vector<std::string>& layers = wishes.layers;
   if (!vulkan || needs_host(layers)) {
     if (Status there = bring_to_host(frame_index, seen, frame.statistics); !there) return there.error();
   }
@@ -202,7 +214,7 @@ Result<ShadingOutputs> Renderer::State::shade_lights(View& seen, std::uint64_t f
     auto on_device =
         shade_on_device({seen.number, seen.geometry, seen.vpls, many_lights, range, shift, count, lobes_apart, filter,
                          /*noisy_too=*/wants(layers, "unfiltered"), seen.request ? &*seen.request : nullptr,
-                         /*compose=*/!seen.on_host, views.scene_to_trace()},
+                         /*compose=*/!seen.on_host, views.scene_to_trace(), wishes.shown},
                         frame.statistics, made);
     if (!on_device) return on_device.error();
     shaded = std::move(*on_device);
@@ -288,7 +300,8 @@ Result<Renderer> Renderer::create(std::shared_ptr<const Scene> scene, const Came
   return Renderer(std::move(state));
 }
 
-Result<Frame> Renderer::render(std::uint64_t frame_index, const std::vector<std::string>& layers) {
+Result<Frame> Renderer::render(std::uint64_t frame_index, const std::vector<std::string>& layers,
+                               std::optional<ToneCurve> shown) {
   Frame frame;
   frame.width = state_->settings.width, frame.height = state_->settings.height;
   View* view = state_->view(frame_index);
@@ -296,15 +309,16 @@ Result<Frame> Renderer::render(std::uint64_t frame_index, const std::vector<std:
   View& seen = *view;
   Prediction prediction;
   MadeOnDevice made;
-  Result<ShadingOutputs> lit = state_->shade_lights(seen, frame_index, layers, frame, prediction, made);
+  Result<ShadingOutputs> lit = state_->shade_lights(seen, frame_index, {layers, shown}, frame, prediction, made);
   if (stop_requested()) return kInterrupted;
   if (!lit) return lit.error();
   if (made.composed) {
-    frame.picture = std::move(made.composed->picture);
+    frame.picture = std::move(made.composed->picture), frame.shown = std::move(made.composed->shown);
     frame.layers.width = frame.width, frame.layers.height = frame.height;
     frame.statistics.pixels_not_finite = made.composed->not_finite;
   } else {
     state_->finish(seen, *lit, layers, prediction, made.filtered, frame);
+    if (shown) show(state_->settings.exposure, *shown, frame);
   }
   for (const auto& [pass, ms] : frame.statistics.passes_ms) frame.statistics.frame_ms += ms;
   if (stop_requested()) return kInterrupted;

@@ -10,6 +10,7 @@
 
 #include "base/result.h"
 #include "image/image.h"
+#include "image/tone_curve.h"
 #include "real_time/reflective_shadow_map/primary_light.h"
 #include "real_time/settings.h"
 #include "scene/scene.h"
@@ -46,8 +47,9 @@ struct FrameStatistics {
 
 struct Frame {
   std::uint32_t width = 0, height = 0;
-  std::vector<Vec3> picture;  // linear radiance, exposure not applied
-  Image layers;               // the layers that were asked for
+  std::vector<Vec3> picture;        // linear radiance, exposure not applied
+  std::vector<std::uint8_t> shown;  // srgb_codes() of the picture, with the settings' exposure, if asked for
+  Image layers;                     // the layers that were asked for
   FrameStatistics statistics;
 };
 
@@ -67,7 +69,9 @@ class Renderer {
 
   static Result<Renderer> create(std::shared_ptr<const Scene> scene, const Camera& camera, PrimaryLights primaries,
                                  const Settings& settings);
-  Result<Frame> render(std::uint64_t frame_index, const std::vector<std::string>& layers = {});
+  //   shown  the tone curve of Frame::shown
+  Result<Frame> render(std::uint64_t frame_index, const std::vector<std::string>& layers = {},
+                       std::optional<ToneCurve> shown = {});
 
   // Of the frames from now on. What was kept of the last view is made anew where this one is another.
   void set_camera(const Camera& camera);

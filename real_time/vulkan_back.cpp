@@ -11,6 +11,7 @@ namespace luciole {
 namespace {
 
 constexpr const char* kTransfer = "transfer";
+constexpr std::uint64_t kCodeBytes = 4;  // of a pixel: red, green, blue, 255
 
 Status run(gpu::CommandList& list, PassTimes& times) {
   Status done = list.run();
@@ -20,14 +21,23 @@ Status run(gpu::CommandList& list, PassTimes& times) {
 
 std::uint64_t pixels_of(const BackInputs& inputs) { return std::uint64_t(inputs.screen.width) * inputs.screen.height; }
 
+std::vector<std::uint8_t> without_alpha(const std::uint8_t* codes, std::uint64_t pixels) {
+  std::vector<std::uint8_t> colours(3 * pixels);
+  for (std::uint64_t i = 0; i < pixels; ++i) std::memcpy(&colours[3 * i], codes + kCodeBytes * i, 3);
+  return colours;
+}
+
 }  // namespace
 
 Result<VulkanBack> VulkanBack::create(gpu::Device& device, const Settings& settings) {
   VulkanBack back;
   back.weight_ = static_cast<float>(settings.interleave * settings.interleave);
+  back.exposure_ = settings.exposure;
   Result<DeviceCompositionPass> composition = DeviceCompositionPass::create(device);
   if (!composition) return composition.error();
-  back.composition_ = std::move(*composition);
+  Result<DeviceToneCurvePass> tone_curve = DeviceToneCurvePass::create(device);
+  if (!tone_curve) return tone_curve.error();
+  back.composition_ = std::move(*composition), back.tone_curve_ = std::move(*tone_curve);
   if (settings.temporal > 1) {
     Result<DeviceAccumulationPass> made =
         DeviceAccumulationPass::create(device, settings.interleave, settings.temporal);
@@ -132,14 +142,28 @@ Status VulkanBack::record_composition(gpu::Device& device, gpu::CommandList& lis
   }
   list.begin_pass("composition");
   composition_.record(list, parts, inputs.screen.width, inputs.screen.height);
+  if (inputs.shown) {
+    if (Status recorded = record_tone_curve(device, list, inputs); !recorded) return recorded;
+  }
   list.begin_pass(kTransfer);
   list.copy(picture_, received_, pixels_of(inputs) * sizeof(PixelColour));
+  if (inputs.shown) list.copy(codes_, received_codes_, pixels_of(inputs) * kCodeBytes);
   list.copy(composition_counts_, received_composition_counts_, sizeof(CompositionCounts));
   if (accumulated) list.copy(accumulation_counts_, received_accumulation_counts_, sizeof(AccumulationCounts));
   if (parts.indirect != nullptr) {
     list.copy(filter_counts_[kIndirect], received_filter_counts_[kIndirect], sizeof(FilterCounts));
   }
   if (parts.many != nullptr) list.copy(filter_counts_[kMany], received_filter_counts_[kMany], sizeof(FilterCounts));
+  return Done{};
+}
+
+Status VulkanBack::record_tone_curve(gpu::Device& device, gpu::CommandList& list, const BackInputs& inputs) {
+  const std::uint64_t bytes = pixels_of(inputs) * kCodeBytes;
+  Status grown = gpu::grow(device, codes_, bytes, gpu::BufferUse::device);
+  if (grown) grown = gpu::grow(device, received_codes_, bytes, gpu::BufferUse::readback);
+  if (!grown) return grown;
+  list.begin_pass("tone_curve");
+  tone_curve_.record(list, picture_, codes_, inputs.screen.width, inputs.screen.height, exposure_, *inputs.shown);
   return Done{};
 }
 
@@ -162,6 +186,7 @@ Status VulkanBack::compose(gpu::Device& device, const BackInputs& inputs, Compos
   }
   const auto* colours = received_.as<Vec3>();
   out.picture.assign(colours, colours + pixels_of(inputs));
+  if (inputs.shown) out.shown = without_alpha(received_codes_.as<std::uint8_t>(), pixels_of(inputs));
   const auto& accumulation = *received_accumulation_counts_.as<AccumulationCounts>();
   out.not_finite = std::max<std::uint64_t>({accumulation.not_finite, accumulation.many_not_finite,
                                             received_composition_counts_.as<CompositionCounts>()->not_finite});

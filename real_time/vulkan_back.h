@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "real_time/composition/device_composition_pass.h"
+#include "real_time/composition/device_tone_curve_pass.h"
 #include "real_time/filtering/device_accumulation_pass.h"
 #include "real_time/filtering/device_filter_pass.h"
 #include "real_time/pass_timer.h"
@@ -35,11 +36,13 @@ struct BackInputs {
   std::uint64_t view;            // its number
   const GeometryBuffer& screen;  // size and camera
   LightSums sums;
+  std::optional<ToneCurve> shown;  // what a screen shows of the picture is wanted, too
 };
 
 struct ComposedPicture {
-  std::vector<Vec3> picture;     // linear radiance, exposure not applied
-  std::uint64_t not_finite = 0;  // pixels: as above, or black for it
+  std::vector<Vec3> picture;        // linear radiance, exposure not applied
+  std::vector<std::uint8_t> shown;  // srgb_codes() of it, where BackInputs wants it
+  std::uint64_t not_finite = 0;     // pixels: as above, or black for it
 };
 
 class VulkanBack {
@@ -50,8 +53,8 @@ class VulkanBack {
 
   // Filters, and brings the light back.
   Status filter(gpu::Device& device, const BackInputs& inputs, FilteredLight& out, PassTimes& times);
-  // Accumulates and filters if the settings say so, adds all up, and brings the picture back. The view was made on the
-  // device.
+  // Accumulates and filters if the settings say so, adds all up, sends it through the tone curve, and brings the
+  // picture back. The view was made on the device.
   Status compose(gpu::Device& device, const BackInputs& inputs, ComposedPicture& out, PassTimes& times);
 
  private:
@@ -61,15 +64,17 @@ class VulkanBack {
   //   weighed  the sums have their weight
   Status record_filter(gpu::Device& device, gpu::CommandList& list, const BackInputs& inputs, bool weighed);
   Status record_composition(gpu::Device& device, gpu::CommandList& list, BackInputs inputs);
-  Status receive(gpu::Device& device, std::uint64_t bytes);
+  Status record_tone_curve(gpu::Device& device, gpu::CommandList& list, const BackInputs& inputs);
 
   std::optional<DeviceAccumulationPass> accumulation_;  // none: the settings want none
   std::optional<DeviceFilterPass> filter_;              // likewise
   DeviceCompositionPass composition_;
+  DeviceToneCurvePass tone_curve_;
   float weight_ = 1;  // of sums, n^2
+  float exposure_ = 1;
   std::array<gpu::Buffer, kSources> filtered_, filter_counts_;
-  gpu::Buffer accumulation_counts_, picture_, composition_counts_;
-  gpu::Buffer received_;
+  gpu::Buffer accumulation_counts_, picture_, composition_counts_, codes_;
+  gpu::Buffer received_, received_codes_;
   std::array<gpu::Buffer, kSources> received_filter_counts_;
   gpu::Buffer received_accumulation_counts_, received_composition_counts_;
 };

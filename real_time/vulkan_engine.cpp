@@ -241,10 +241,10 @@ LightSums VulkanEngine::light_sums() const {
 Status VulkanEngine::finish(const VulkanFrame& frame, VulkanShaded& out) {
   Status done = Done{};
   if (frame.compose) {
-    const BackInputs inputs{seen_, frame.view, frame.geometry, light_sums()};
+    const BackInputs inputs{seen_, frame.view, frame.geometry, light_sums(), frame.shown};
     done = back_->compose(*device_, inputs, out.composed.emplace(), passes_ms_);
   } else if (filters(frame)) {
-    const BackInputs inputs{seen_, frame.view, frame.geometry, light_sums()};
+    const BackInputs inputs{seen_, frame.view, frame.geometry, light_sums(), {}};
     done = back_->filter(*device_, inputs, out.filtered.emplace(), passes_ms_);
   }
   if (!done) view_ = ~std::uint64_t{0};

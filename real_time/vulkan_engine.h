@@ -38,6 +38,7 @@ struct VulkanFrame {
   const ViewRequest* made_here = nullptr;  // of it the engine makes the view, and none is sent
   bool compose = false;  // such a view's picture is composed here, and nothing but that and counts comes back
   SceneToTrace scene = {};
+  std::optional<ToneCurve> shown = {};  // and what a screen shows of it
 };
 
 struct VulkanShaded {

@@ -100,6 +100,33 @@ TEST(FrameOfTheDevicesFront, is_one_picture_with_and_without_layers) {
   }
 }
 
+// Values whose code differs from what the CPU makes of the same linear picture; -1: sizes differ.
+std::ptrdiff_t codes_apart(const Frame& frame, float exposure, ToneCurve curve) {
+  const std::vector<std::uint8_t> right = srgb_codes(to_display(frame.picture, exposure, curve));
+  if (frame.shown.size() != right.size()) return -1;
+  std::ptrdiff_t apart = 0;
+  for (std::size_t i = 0; i < right.size(); ++i) apart += frame.shown[i] != right[i];
+  return apart;
+}
+
+// Where rounding decides, a code may be the next one: rarely, as edges of codes are thin.
+TEST(FrameOfTheDevicesFront, has_what_a_screen_shows_of_it) {
+  Settings settings = small_settings();
+  settings.engine = Engine::vulkan, settings.front = luciole::Front::rays, settings.exposure = 1.5f;
+  const Front front("recipe:gallery?detail=0.05", settings);
+  Result<Renderer> renderer = renderer_of(front, settings);
+  ASSERT_TRUE(renderer.has_value()) << renderer.error().message;
+  for (const ToneCurve curve : {ToneCurve::pbr_neutral, ToneCurve::linear}) {
+    const Frame on_device = *renderer->render(0, {}, curve);
+    const std::ptrdiff_t values = static_cast<std::ptrdiff_t>(3 * on_device.picture.size());
+    EXPECT_GE(codes_apart(on_device, settings.exposure, curve), 0);
+    EXPECT_LE(codes_apart(on_device, settings.exposure, curve), values / 1000);
+    EXPECT_GT(codes_apart(on_device, 1.0f, curve), values / 2) << "the control: another exposure";
+    EXPECT_EQ(codes_apart(*renderer->render(0, {"albedo"}, curve), settings.exposure, curve), 0) << "by the CPU";
+  }
+  EXPECT_TRUE(renderer->render(0)->shown.empty());
+}
+
 // The third frame of a moving camera. Pixels at edges may show the other surface, so that the picture is held to what
 // other random numbers make.
 Frame third_of_walk(const Front& front, const Settings& settings, std::uint64_t first) {

@@ -16,9 +16,11 @@ std::string describe(std::size_t index, const gpu::DeviceDescription& device) {
   constexpr double kGib = 1024.0 * 1024 * 1024;
   return fmt::format(
       "{} {}\n    kind       {}\n    driver     {}\n    subgroups  of {} invocations\n    memory     {:.1f} GiB\n"
-      "    missing    {}\n",
+      "    views      {}\n    missing    {}\n",
       index, device.name, name_of(device.kind), device.driver, device.subgroup_size,
-      static_cast<double>(device.memory_bytes) / kGib, device.missing.empty() ? "nothing" : joined(device.missing));
+      static_cast<double>(device.memory_bytes) / kGib,
+      device.rasterises ? "rasterised, or by rays" : "by rays alone: it cannot rasterise",
+      device.missing.empty() ? "nothing" : joined(device.missing));
 }
 
 std::string taken(const std::vector<gpu::DeviceDescription>& devices, bool hardware_only, const char* otherwise) {

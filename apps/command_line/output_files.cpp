@@ -73,8 +73,8 @@ Result<OutputFiles> OutputFiles::create(std::vector<fs::path> names, const Frame
   return files;
 }
 
-bool OutputFiles::any_exr() const {
-  return std::any_of(names_.begin(), names_.end(), [](const fs::path& name) { return name.extension() == ".exr"; });
+bool OutputFiles::any(const char* extension) const {
+  return std::any_of(names_.begin(), names_.end(), [&](const fs::path& name) { return name.extension() == extension; });
 }
 
 Status write_picture(const Image& image, const fs::path& path, float exposure, ToneCurve curve) {
@@ -82,9 +82,11 @@ Status write_picture(const Image& image, const fs::path& path, float exposure, T
   return write_png(to_display(image.colours(""), exposure, curve), image.width, image.height, path);
 }
 
-Status OutputFiles::write(const Image& image, std::uint64_t frame, float exposure, ToneCurve curve) const {
+Status OutputFiles::write(const Image& image, const std::vector<std::uint8_t>& shown, std::uint64_t frame) const {
   for (const fs::path& name : names_) {
-    Status status = write_picture(image, numbered_ ? with_number(name, frame) : name, exposure, curve);
+    const fs::path path = numbered_ ? with_number(name, frame) : name;
+    Status status = path.extension() == ".exr" ? write_exr(image, path)
+                                               : write_png_codes(shown, image.width, image.height, path);
     if (!status) return status;
   }
   return Done{};

@@ -26,13 +26,17 @@ class OutputFiles {
   // whatever cannot be written. Nothing is left behind by the check.
   static Result<OutputFiles> create(std::vector<std::filesystem::path> names, const FrameRange& frames);
 
-  bool any_exr() const;
+  bool any_exr() const { return any(".exr"); }
+  bool any_png() const { return any(".png"); }
   const std::vector<std::filesystem::path>& names() const { return names_; }
 
   // The picture of one frame, under all names.
-  Status write(const Image& image, std::uint64_t frame, float exposure, ToneCurve curve) const;
+  //   shown   what a screen shows of it, srgb_codes() (image/tone_curve.h); may be empty without any .png
+  Status write(const Image& image, const std::vector<std::uint8_t>& shown, std::uint64_t frame) const;
 
  private:
+  bool any(const char* extension) const;
+
   std::vector<std::filesystem::path> names_;
   bool numbered_ = false;
 };

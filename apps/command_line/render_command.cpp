@@ -107,26 +107,31 @@ class Run {
   Status render_one(Renderer& renderer, std::uint64_t index, double scene_ms) {
     FrameAccumulator sum;
     Image picture;
+    std::vector<std::uint8_t> shown;
+    const bool shows = video_ || plan_.outputs.any_png();
+    const bool one = options_.accumulate == 1;  // else the mean is shown
+    const std::optional<ToneCurve> curve = shows && one ? std::optional(plan_.tone_curve) : std::nullopt;
     std::uint32_t complete = 0;
     for (; complete < options_.accumulate; ++complete) {
       progress_.step(fmt::format("frame {} of {}-{}, part {} of {}", index, plan_.frames.first, plan_.frames.last,
                                  complete + 1, options_.accumulate));
-      Result<Frame> frame = renderer.render(index * options_.accumulate + complete, plan_.layers);
+      Result<Frame> frame = renderer.render(index * options_.accumulate + complete, plan_.layers, curve);
       if (stop_requested()) break;  // the frame may have holes
       if (!frame) return frame.error();
       if (complete == 0) frame->statistics.scene_ms = scene_ms;
       tell(frame->statistics);
       frame->layers.set_colours("", frame->picture);
       statistics_.frames.emplace_back(index * options_.accumulate + complete, frame->statistics);
-      if (options_.accumulate == 1) {
-        picture = std::move(frame->layers);
+      if (one) {
+        picture = std::move(frame->layers), shown = std::move(frame->shown);
       } else {
         sum.add(frame->layers);
       }
     }
     if (complete == 0) return Done{};
-    if (options_.accumulate > 1) {
+    if (!one) {
       picture = sum.mean();
+      if (shows) shown = srgb_codes(to_display(picture.colours(""), plan_.settings.exposure, plan_.tone_curve));
       if (plan_.variance) sum.add_variance_layer(picture);
     }
     add_metadata(picture, plan_, options_, renderer.settings());
@@ -135,10 +140,9 @@ class Run {
     complete_frames_ += complete;
     progress_.step("writing");
     if (video_) {
-      const std::vector<Vec3> shown = to_display(picture.colours(""), plan_.settings.exposure, plan_.tone_curve);
       if (Status status = video_->add(shown); !status) return status;
     }
-    return plan_.outputs.write(picture, index, plan_.settings.exposure, plan_.tone_curve);
+    return plan_.outputs.write(picture, shown, index);
   }
 
   void tell(const FrameStatistics& frame) {

@@ -18,7 +18,6 @@
 #include <thread>
 
 #include "apps/command_line/output_files.h"
-#include "image/tone_curve.h"
 
 extern char** environ;
 
@@ -111,8 +110,7 @@ VideoWriter::VideoWriter(VideoWriter&& other) noexcept
       child_(std::exchange(other.child_, 0)),
       status_(other.status_),
       pipe_(std::exchange(other.pipe_, -1)),
-      complaints_(std::exchange(other.complaints_, nullptr)),
-      bytes_(std::move(other.bytes_)) {
+      complaints_(std::exchange(other.complaints_, nullptr)) {
   other.partial_.clear();
 }
 
@@ -202,15 +200,8 @@ Error VideoWriter::explain(const std::string& what) {
           "cannot write " + format_.path.string() + ": ffmpeg " + what + (said.empty() ? "" : ": " + said)};
 }
 
-Status VideoWriter::add(const std::vector<Vec3>& pixels) {
-  bytes_.resize(pixels.size() * 3);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const float channels[3] = {pixels[i].x, pixels[i].y, pixels[i].z};
-    for (std::size_t c = 0; c < 3; ++c) {
-      bytes_[3 * i + c] = static_cast<std::uint8_t>(srgb_encode(channels[c]) * 255.0f + 0.5f);
-    }
-  }
-  if (write_all(pipe_, bytes_)) return Done{};
+Status VideoWriter::add(const std::vector<std::uint8_t>& codes) {
+  if (write_all(pipe_, codes)) return Done{};
   return explain(wait_for_end(1) ? "ended before the last frame" : "takes no more frames");
 }
 

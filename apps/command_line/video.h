@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "base/result.h"
-#include "base/vector.h"
 
 namespace luciole {
 
@@ -33,8 +32,8 @@ class VideoWriter {
   VideoWriter& operator=(VideoWriter&&) = delete;
   ~VideoWriter();  // ends ffmpeg and removes what is not finished
 
-  //   pixels  display-linear [0,1], width * height, row 0 on top; the same bytes go to ffmpeg as into a PNG
-  Status add(const std::vector<Vec3>& pixels);
+  //   codes   sRGB, 8 bits, 3 * width * height, row 0 on top: what goes into a PNG
+  Status add(const std::vector<std::uint8_t>& codes);
   // After the last frame: waits for ffmpeg and gives the file its name.
   Status finish();
 
@@ -51,7 +50,6 @@ class VideoWriter {
   int status_ = 0;                   // as waitpid says
   int pipe_ = -1;                    // to its standard input
   std::FILE* complaints_ = nullptr;  // its standard error
-  std::vector<std::uint8_t> bytes_;
 };
 
 }  // namespace luciole

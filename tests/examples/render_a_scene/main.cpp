@@ -30,11 +30,11 @@ int main(int argc, char** argv) {
   auto scene = std::make_shared<const luciole::Scene>(std::move(opened->scene));
   auto renderer = luciole::Renderer::create(scene, opened->camera, opened->primary, settings);
   if (!renderer) return explain(renderer.error());
-  const auto frame = renderer->render(0);
+  const auto frame = renderer->render(0, {}, luciole::ToneCurve::pbr_neutral);
   if (!frame) return explain(frame.error());
 
-  const auto display = luciole::to_display(frame->picture, settings.exposure, luciole::ToneCurve::pbr_neutral);
-  const auto written = luciole::write_png(display, frame->width, frame->height, argc > 2 ? argv[2] : "picture.png");
+  const char* const name = argc > 2 ? argv[2] : "picture.png";
+  const auto written = luciole::write_png_codes(frame->shown, frame->width, frame->height, name);
   if (!written) return explain(written.error());
   std::printf("%.1f ms, %zu triangles\n", frame->statistics.frame_ms, std::size_t(scene->triangle_count()));
 }
