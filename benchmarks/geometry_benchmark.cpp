@@ -24,8 +24,8 @@ T taken(Result<T> result) {
   std::exit(1);
 }
 
-// Median of the pass's time [ms]; the first run, in which shaders may be compiled, is left out. By the device's clock, but
-// software Vulkan stamps beside its rasteriser: there by ours, which adds less than a millisecond.
+// Median of the pass's time [ms]; the first run, in which shaders may be compiled, is left out. By the device's clock,
+// but software Vulkan stamps beside its rasteriser: there by ours, which adds less than a millisecond.
 template <class Pass>
 double pass_ms(gpu::Device& device, const Pass& pass, const DeviceScene& scene, const DeviceView& view,
                const GeometryOnDevice& to) {

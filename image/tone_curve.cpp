@@ -23,8 +23,8 @@ constexpr std::array<std::pair<std::string_view, ToneCurve>, 2> kNames{
 
 constexpr std::size_t kGrain = 4096;  // [pixels]
 
-// srgb_code() without its power: a value's leading bits name a code it has surely reached, from which the next edges are
-// at most a few away.
+// srgb_code() without its power: a value's leading bits name a code it has surely reached, from which the next edges
+// are at most a few away.
 class CodeTable {
  public:
   CodeTable() : edges_(srgb_code_edges()) {

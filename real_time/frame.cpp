@@ -190,9 +190,8 @@ Result<std::optional<ShadingOutputs>> Renderer::State::shade_on_device(const Vul
   return std::optional<ShadingOutputs>(std::move((*shaded)->shaded));
 }
 
-Result<ShadingOutputs> Renderer::State::shade_lights(View& seen, std::uint64_t frame_index,
-                                                     const FrameWishes& wishes, Frame& frame, Prediction& prediction,
-                                                     MadeOnDevice& made) {
+Result<ShadingOutputs> Renderer::State::shade_lights(View& seen, std::uint64_t frame_index, const FrameWishes& wishes,
+                                                     Frame& frame, Prediction& prediction, MadeOnDevice& made) {
   const std::vector<std::string>& layers = wishes.layers;
   if (!vulkan || needs_host(layers)) {
     if (Status there = bring_to_host(frame_index, seen, frame.statistics); !there) return there.error();

@@ -85,8 +85,8 @@ Status write_picture(const Image& image, const fs::path& path, float exposure, T
 Status OutputFiles::write(const Image& image, const std::vector<std::uint8_t>& shown, std::uint64_t frame) const {
   for (const fs::path& name : names_) {
     const fs::path path = numbered_ ? with_number(name, frame) : name;
-    Status status = path.extension() == ".exr" ? write_exr(image, path)
-                                               : write_png_codes(shown, image.width, image.height, path);
+    Status status =
+        path.extension() == ".exr" ? write_exr(image, path) : write_png_codes(shown, image.width, image.height, path);
     if (!status) return status;
   }
   return Done{};

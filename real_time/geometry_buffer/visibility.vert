@@ -13,10 +13,10 @@ invariant gl_Position;  // those with holes meet those without
 SceneRecord scene() { return SceneAt(push.scene).value; }
 
 void main() {
-  const MeshRecord mesh = MeshRecords(scene().meshes).value[gl_InstanceIndex];
-  const uint vertex = WordsAt(mesh.indices).value[gl_VertexIndex];
+  MeshRecords meshes = MeshRecords(scene().meshes);
+  const uint vertex = WordsAt(meshes.value[gl_InstanceIndex].indices).value[gl_VertexIndex];
   const Projection to = push.projection;
-  const vec3 p = floats3(mesh.positions, vertex) - vector(to.eye);
+  const vec3 p = floats3(meshes.value[gl_InstanceIndex].positions, vertex) - vector(to.eye);
   gl_Position = vec4(dot(vector(to.x), p), dot(vector(to.y), p), to.near, dot(vector(to.w), p));
   shown = uvec2(gl_InstanceIndex, gl_VertexIndex / 3);
 }
