@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # What ./do check runs: unit tests under the address and undefined-behaviour sanitizers and under the thread sanitizer, a
-# planted race, two minutes of fuzzing per target, the papers' figures at small sizes, and the format of all sources.
+# planted race, two minutes of fuzzing per target, the papers' figures at small sizes, the device's kernels under validation,
+# and the format of all sources.
 # Every part runs; any failure fails.
 #   LUCIOLE_FUZZ_SECONDS   time per fuzz target, 120 by default
 set -uo pipefail
@@ -109,6 +110,15 @@ reproduce_quick() {
   tail -n 1 out/reproduce-quick.log
 }
 
+# Each access of each kernel that makes a view on the device, which software Vulkan compiles for minutes, if it does not
+# optimise. Other kernels are checked so by ./do test.
+validated_front() {
+  [[ -x build/luciole ]] || ./do build || return 1
+  mkdir -p out
+  GALLIVM_PERF=nopt MESA_SHADER_CACHE_DISABLE=true build/luciole render "recipe:gallery?detail=0.05" --size 64x48 \
+    --vpls 256 --engine vulkan --front rays --direct-shadows --temporal 4 --vulkan-validation --quiet -o out/validated.png
+}
+
 formatted() {
   local wrong
   wrong=$(find apps base benchmarks equations examples gpu image offline ray_tracing real_time report scene shot tests \
@@ -123,6 +133,7 @@ part "thread sanitizer" thread
 part "planted race" planted_race
 part "fuzzing" fuzz
 part "the papers' figures, quick" reproduce_quick
+part "validation inside the kernels of the device's front" validated_front
 
 if ((${#failures[@]})); then
   printf 'check failed: %s\n' "${failures[@]}"

@@ -19,6 +19,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Slo
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer TextureRecords { TextureRecord value[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FloatsAt { float value[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer WordsAt { uint value[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Words3At { uvec3 value[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Floats2At { vec2 value[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Floats3At { vec3 value[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Floats4At { vec4 value[]; };
 
 SceneRecord scene();
 
@@ -31,20 +35,14 @@ struct Corners {
 
 Corners corners_of(MeshRecord mesh, uint triangle, vec2 uv) {
   Corners c;
-  WordsAt indices = WordsAt(mesh.indices);
-  c.index = uvec3(indices.value[3u * triangle], indices.value[3u * triangle + 1u], indices.value[3u * triangle + 2u]);
+  c.index = Words3At(mesh.indices).value[triangle];
   c.weight = vec3(1.0 - uv.x - uv.y, uv.x, uv.y);
   return c;
 }
 
-vec2 floats2(uint64_t at, uint i) { return vec2(FloatsAt(at).value[2u * i], FloatsAt(at).value[2u * i + 1u]); }
-vec3 floats3(uint64_t at, uint i) {
-  return vec3(FloatsAt(at).value[3u * i], FloatsAt(at).value[3u * i + 1u], FloatsAt(at).value[3u * i + 2u]);
-}
-vec4 floats4(uint64_t at, uint i) {
-  return vec4(FloatsAt(at).value[4u * i], FloatsAt(at).value[4u * i + 1u], FloatsAt(at).value[4u * i + 2u],
-              FloatsAt(at).value[4u * i + 3u]);
-}
+vec2 floats2(uint64_t at, uint i) { return Floats2At(at).value[i]; }
+vec3 floats3(uint64_t at, uint i) { return Floats3At(at).value[i]; }
+vec4 floats4(uint64_t at, uint i) { return Floats4At(at).value[i]; }
 vec3 mixed3(uint64_t at, Corners c) {
   return floats3(at, c.index.x) * c.weight.x + floats3(at, c.index.y) * c.weight.y + floats3(at, c.index.z) * c.weight.z;
 }
