@@ -6,7 +6,9 @@
 # Builds into $BUILD (default: build). Shots: sponza, sibenik and gallery where $LUCIOLE_SCENES names the scenes' folder,
 # else gallery. Pictures of the CPU engine are kept in FOLDER (default: out/gpu) and made where they are missing. Writes
 # docs/results/CHIP/culling_and_shading.md, with the times of all passes below it; with the device's peak rates it says how
-# far from its floors each time is; and, for the first of the counts, shading_variants.md.
+# far from its floors each time is; and, for the first of the counts, shading_variants.md. Five frames more warm the device
+# up, but with --frames 1, for software Vulkan: then the frame that is checked is the one that is timed, and there are no
+# variants.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${BUILD:-build} device='' size=1920x1080 vpls=65536,1048576 frames=50 peak='' front=auto store=out/gpu shots=()
@@ -94,8 +96,9 @@ row() {
   local shot=$1 count=$2 lobes=$3 error cpu=$store/$1-$2-$3-$size.json shading ranges numbers
   cpu_picture "$shot" "$count" "$lobes"
   error=$(check "$shot" "$count" "$lobes")
-  noisy "$shot" --vpls "$count" --lobes "$lobes" "${engine[@]}" --accumulate "$((frames + 5))" -o "$work/mean.exr" \
-    --statistics "$work/times.json"
+  cp "$work/one.json" "$work/times.json"
+  ((frames == 1)) || noisy "$shot" --vpls "$count" --lobes "$lobes" "${engine[@]}" --accumulate "$((frames + 5))" \
+    -o "$work/mean.exr" --statistics "$work/times.json"
   ranges=$(value "$work/times.json" passes_ms/light_range)
   shading=$(value "$work/times.json" passes_ms/culling_and_shading)
   floors "$work/times.json" "$count" "$lobes" > "$work/floors"
@@ -132,14 +135,15 @@ passes_row() {
   for seed in 1 2; do
     [[ -f $name-$seed.exr ]] || render "$shot" --vpls "$count" --seed "$seed" -o "$name-$seed.exr"
   done
-  render "$shot" --vpls "$count" "${whole[@]}" -o "$work/picture.exr"
+  render "$shot" --vpls "$count" "${whole[@]}" -o "$work/picture.exr" -o "$work/picture.png" \
+    --statistics "$work/passes.json"
   error=$(error_of "$work/picture.exr" "$name-1.exr") other=$(error_of "$name-2.exr" "$name-1.exr")
   if ! awk -v e="$error" -v other="$other" 'BEGIN { exit !(e <= other) }'; then
     echo "gpu.sh: $shot with $count VPLs: relMSE to the CPU's picture is $error; that of other random numbers is $other" >&2
     exit 1
   fi
-  render "$shot" --vpls "$count" "${whole[@]}" --jitter --accumulate "$((frames + 5))" -o "$work/mean.exr" \
-    --statistics "$work/passes.json"
+  ((frames == 1)) || render "$shot" --vpls "$count" "${whole[@]}" --jitter --frames "0-$((frames + 4))" \
+    -o "$work/frame####.png" --statistics "$work/passes.json"
   if [[ -z ${pass_names:-} ]]; then
     pass_names=$(passes "$work/passes.json")
     printf '\n| shot | VPLs | relMSE to the CPU |'
@@ -170,8 +174,13 @@ mkdir -p "$folder"
   [[ $front != auto ]] && printf ' --front %s' "$front"
   [[ -n $peak ]] && printf ' --peak %s' "$peak"
   printf '`.\n\n'
+  if ((frames == 1)); then
+    printf 'Each time is that of one frame, by timestamps of the device.'
+  else
+    printf 'Medians by timestamps of the device over the frames and five more, of which a median does not feel the first.'
+  fi
   cat << 'TEXT'
-Medians by timestamps of the device over the frames and five more, of which a median does not feel the first. Tests (light against tile), listed and
+ Tests (light against tile), listed and
 accepted pairs are means per pixel. The CPU engine's time is that of one frame on the same machine's processor. Operations
 and bytes are the least that the frame asks for: what each test, listed and accepted pair computes
 (`benchmarks/operations_benchmark.cpp`; a multiply-add is two, a division or root four), each pixel and light read once
@@ -182,13 +191,21 @@ TEXT
 
 ## All passes
 
-Medians of milliseconds over frames whose view is made anew each time (`--jitter`), with the filter. The relative error is that of one
+TEXT
+  if ((frames == 1)); then
+    printf 'Milliseconds of one frame, with the filter.'
+  else
+    printf 'Medians of milliseconds over frames whose view is made anew each time (`--jitter`), with the filter.'
+  fi
+  cat << 'TEXT'
+ The relative error is that of one
 still frame: where an edge passes through the middle of a pixel, the two engines may show different surfaces.
 TEXT
   cat "$work/all_passes"
 } > "$work/page.md"
 mv "$work/page.md" "$folder/culling_and_shading.md"
 echo "$folder/culling_and_shading.md"
+((frames > 1)) || exit 0
 "$build/benchmarks/shading_variants_benchmark" "$device" "$size" "${vpls%%,*}" "$frames" "${shots[@]}" > "$work/variants.md"
 mv "$work/variants.md" "$folder/shading_variants.md"
 echo "$folder/shading_variants.md"
