@@ -16,9 +16,21 @@ function(luciole_test_program name)
   target_link_libraries(${name} PRIVATE luciole_flags ${TEST_LINK} GTest::gtest GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE LUCIOLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                              LUCIOLE_SCRATCH_DIR="${CMAKE_CURRENT_BINARY_DIR}")
+endfunction()
+
+# luciole_seldom_runs(target ...)
+# Options, JSON and expectations, from header-only libraries, run once: compiling them for speed takes longer than they ever
+# run. Not for what computes.
+function(luciole_seldom_runs)
+  set(level -O1)
   if(LUCIOLE_SANITIZE)
-    target_compile_options(${name} PRIVATE -O0)  # instrumented expectations take longer to compile than to run
+    set(level -O0)
   endif()
+  foreach(target ${ARGN})
+    if(TARGET ${target})
+      target_compile_options(${target} PRIVATE ${level})
+    endif()
+  endforeach()
 endfunction()
 
 # luciole_test(name SOURCES a_test.cpp LINK luciole_image ... [LABEL statistical] [ONE_THREAD])
