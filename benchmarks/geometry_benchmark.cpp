@@ -87,8 +87,9 @@ int main(int argc, char** argv) {
   print_page_head("The geometry buffer on a device", "benchmarks/run.sh geometry");
   const std::unique_ptr<gpu::Device> device = taken(gpu::Device::create({}));
   std::printf(
-      "\n1280x720, medians of three. Vulkan device: %s. Times of the device are by its own clock. The last column\n"
-      "is the share of pixels that show another triangle when they are rasterised than by rays.\n\n"
+      "\n1280x720, medians of three. Vulkan device: %s. Its times are by its own clock, or, of\n"
+      "software Vulkan, by this program's. The last column is the\n"
+      "share of pixels that show another triangle when they are rasterised than by rays.\n\n"
       "| shot | triangles | meshes | rasterised, ms | by rays, ms | CPU by rays, ms | another triangle |\n"
       "| --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
       device->description().name.c_str());
