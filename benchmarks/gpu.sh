@@ -175,7 +175,7 @@ mkdir -p "$folder"
   [[ -n $peak ]] && printf ' --peak %s' "$peak"
   printf '`.\n\n'
   if ((frames == 1)); then
-    printf 'Each time is that of one frame, by timestamps of the device.'
+    printf 'Each time is that of one frame, by timestamps of the device: a second run may differ by a fifth.'
   else
     printf 'Medians by timestamps of the device over the frames and five more, of which a median does not feel the first.'
   fi
@@ -198,8 +198,9 @@ TEXT
     printf 'Medians of milliseconds over frames whose view is made anew each time (`--jitter`), with the filter.'
   fi
   cat << 'TEXT'
- The relative error is that of one
-still frame: where an edge passes through the middle of a pixel, the two engines may show different surfaces.
+ Transfer is what
+the clock of the CPU shows beyond the timestamps. The relative error is that of one still frame: where an edge passes
+through the middle of a pixel, the two engines may show different surfaces.
 TEXT
   cat "$work/all_passes"
 } > "$work/page.md"

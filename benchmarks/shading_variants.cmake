@@ -10,12 +10,11 @@ foreach(name all_kinds appended_by_atomics depth_masks half_precision persistent
   luciole_shader(luciole_shading_variants ${name} shading_variants/${name}.comp)
 endforeach()
 luciole_shader(luciole_shading_variants depth_masks_and_halves shading_variants/depth_masks.comp OPTIONS -DAND_HALVES)
-luciole_shader(luciole_shading_variants shuffled_lights shading_variants/subgroup_lights.comp OPTIONS -DSHUFFLES)
-luciole_shader(luciole_shading_variants subgroup_lists shading_variants/subgroup_lights.comp OPTIONS -DSUBGROUP_LISTS)
-luciole_shader(luciole_shading_variants shuffled_subgroup_lists shading_variants/subgroup_lights.comp
-               OPTIONS -DSHUFFLES -DSUBGROUP_LISTS)
+luciole_shader(luciole_shading_variants subgroup_lists shading_variants/subgroup_lists.comp)
+luciole_shader(luciole_shading_variants subgroup_lists_by_subgroup shading_variants/subgroup_lists.comp
+               OPTIONS -DLUCIOLE_LIGHTS_BY_SUBGROUP)
 luciole_shader(luciole_shading_variants batches_of_256 ${engine_kernel} OPTIONS -DBATCH=256)
 luciole_shader(luciole_shading_variants batches_of_512 ${engine_kernel} OPTIONS -DBATCH=512)
 luciole_shader(luciole_shading_variants small_tiles ${engine_kernel} OPTIONS -DTILE_SIDE=8)
-luciole_shader(luciole_shading_variants small_tiles_shuffled shading_variants/subgroup_lights.comp
-               OPTIONS -DSHUFFLES -DTILE_SIDE=8)
+luciole_shader(luciole_shading_variants small_tiles_by_subgroup ${engine_kernel}
+               OPTIONS -DTILE_SIDE=8 -DLUCIOLE_LIGHTS_BY_SUBGROUP)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ways to cull and shade on a Vulkan device beside the engine's kernel, each checked against its light, and timed.
+// Ways to cull and shade on a Vulkan device, each checked against the light of the engine's kernel, and timed.
 //   shading_variants_benchmark DEVICE WIDTHxHEIGHT VPLS FRAMES SCENE ...
 //     DEVICE  its number or a part of its name; '': the best there is
 // Prints Markdown.
@@ -8,12 +8,27 @@
 #include <cstdlib>
 
 #include "benchmarks/shading_variants/measure.h"
+#include "real_time/shading/tile_shading_pass.h"
 
 namespace luciole {
 namespace {
 
 constexpr const char* kKindNames[] = {"diffuse", "glossy", "many", "all"};
-constexpr double kWorthIt = 0.9;  // of the engine's time: what more text in the engine must save at least
+constexpr double kWorthIt = 0.9;  // of the first's time: what more text in the engine must save at least
+
+// Size, count of lights, rounds.
+constexpr const char* kWhatIsMeasured =
+    R"(%s pixels, %s virtual point lights. Medians of %s rounds by timestamps of the device; each round runs one variant after
+the other, so that whatever slows the machine down slows all. The ratio is the median over the rounds of the time to
+that of the first in the same round. Light: whether the sums per pixel have the bits of the first, else their mean square
+error, relative to the mean square, and at how many pixels another number of lights was accepted.
+)";
+
+constexpr const char* kOnSoftware = R"(
+**Software Vulkan says little of GPUs.** It runs the subgroups of a workgroup in turn on one core, keeps shared memory
+in the same cache as all else, has no latency to hide by more workgroups, reads memory lane by lane, and computes half
+precision by way of float.
+)";
 
 void print_head(const gpu::DeviceDescription& device, int argc, char** argv) {
   std::printf("# Ways to cull and shade on %s\n\nRemake: `build/benchmarks/shading_variants_benchmark",
@@ -21,24 +36,8 @@ void print_head(const gpu::DeviceDescription& device, int argc, char** argv) {
   for (int i = 1; i < argc; ++i) std::printf(argv[i][0] == '\0' ? " ''%s" : " %s", argv[i]);
   std::printf("` (`benchmarks/gpu.sh` runs it too). Driver: %s; subgroups of %u.\n\n", device.driver.c_str(),
               device.subgroup_size);
-  std::printf(
-      "%s pixels, %s virtual point lights. Medians of %s rounds by timestamps of the device; each round runs one "
-      "variant "
-      "after\n"
-      "the other, so that whatever slows the machine down slows all. The ratio is the median over the rounds of the "
-      "time "
-      "to\n"
-      "that of the engine's kernel in the same round. Light: whether the sums per pixel have the engine's bits, else "
-      "their\n"
-      "mean square error, relative to the mean square, and at how many pixels another number of lights was accepted.\n",
-      argv[2], argv[3], argv[4]);
-  if (device.kind != gpu::DeviceKind::cpu) return;
-  std::printf(
-      "\n**Software Vulkan says little of GPUs.** It runs the subgroups of a workgroup in turn on one core, keeps "
-      "shared "
-      "memory\n"
-      "in the same cache as all else, has no latency to hide by more workgroups, and computes half precision by way of "
-      "float.\n");
+  std::printf(kWhatIsMeasured, argv[2], argv[3], argv[4]);
+  if (device.kind == gpu::DeviceKind::cpu) std::printf("%s", kOnSoftware);
 }
 
 // How much of their tiles the sub-regions fill: at the edges large tiles waste more.
@@ -93,7 +92,7 @@ void print_scene(const SceneTimes& scene) {
     std::printf("| %s |", variant.name.c_str());
     for (const std::size_t k : columns) {
       if (variant.ms[k] > 0) {
-        std::printf(" %.3g | %.2f |", variant.ms[k], variant.to_engine[k]);
+        std::printf(" %.3g | %.2f |", variant.ms[k], variant.to_first[k]);
       } else {
         std::printf(" | |");
       }
@@ -101,15 +100,15 @@ void print_scene(const SceneTimes& scene) {
     print_light(variant.light);
   }
   if (scene.error_of_float > 0) {
-    std::printf("\nMedian relative error of virtual lights against double precision: %.1e with the engine's kernel",
+    std::printf("\nMedian relative error of virtual lights against double precision: %.1e with lights by pixel",
                 scene.error_of_float);
     if (scene.error_of_half > 0) std::printf(", %.1e with half precision", scene.error_of_half);
     std::printf(".\n");
   }
 }
 
-// Which variant takes the least of the engine's time, by the geometric mean over the scenes, and which are worth it.
-void print_choice(const std::vector<SceneTimes>& scenes) {
+// Which variant takes the least of the first's time, by the geometric mean over the scenes, and which are worth it.
+void print_choice(const gpu::DeviceDescription& device, const std::vector<SceneTimes>& scenes) {
   std::string best, worth;
   double least = 1;
   for (std::size_t v = 1; v < scenes.front().variants.size(); ++v) {
@@ -118,22 +117,23 @@ void print_choice(const std::vector<SceneTimes>& scenes) {
     for (const SceneTimes& scene : scenes) {
       for (const VariantTimes& variant : scene.variants) {
         if (variant.name != name) continue;
-        product *= variant.to_engine[kLightKinds], largest = std::max(largest, variant.to_engine[kLightKinds]);
+        product *= variant.to_first[kLightKinds], largest = std::max(largest, variant.to_first[kLightKinds]);
       }
     }
     const double mean = std::pow(product, 1.0 / double(scenes.size()));
     if (mean < least) least = mean, best = name;
     if (largest < kWorthIt) worth += (worth.empty() ? "**" : ", **") + name + "**";
   }
-  std::printf("\n## What is chosen\n\n");
+  std::printf("\n## What is chosen\n\nOn this device the engine takes **lights by %s**.\n",
+              faster_light_reads(device) == LightReads::by_pixel ? "pixel" : "subgroup");
   if (best.empty()) {
-    std::printf("The engine's kernel: nothing that was tried is faster over all scenes.\n");
+    std::printf("Nothing that was tried is faster than lights by pixel over all scenes.\n");
     return;
   }
-  std::printf("The fastest over all scenes is **%s**, %.2f of the time of the engine's kernel (geometric mean).\n",
+  std::printf("The fastest over all scenes is **%s**, %.2f of the time of lights by pixel (geometric mean).\n",
               best.c_str(), least);
   if (worth.empty()) {
-    std::printf("No variant saves more than a tenth in every scene, so the engine's kernel stays as it is.\n");
+    std::printf("No variant saves more than a tenth in every scene.\n");
   } else {
     std::printf("More than a tenth in every scene is saved by %s.\n", worth.c_str());
   }
@@ -169,5 +169,5 @@ int main(int argc, char** argv) {
   print_head(device->description(), argc, argv);
   print_variants(scenes.front());
   for (const SceneTimes& scene : scenes) print_scene(scene);
-  print_choice(scenes);
+  print_choice(device->description(), scenes);
 }

@@ -11,10 +11,10 @@ namespace luciole {
 namespace {
 
 // A frame on software Vulkan may not ask for more at once: there each invocation has 65,535 turns of loops in all, and
-// a light takes one, and a quarter of one for subgroups of four. Of hardware, the longest submission that no watchdog
-// of an operating system minds.
-constexpr std::uint32_t kSoftwarePart = 32768, kHardwarePart = 262144;
-constexpr std::uint32_t kFewerWithShadows = 16;  // a shadow ray takes some dozens of turns
+// for subgroups of four a light takes 3.25 at most: a quarter to be listed, one and a half to be added to each of the
+// two halves (lights_by_subgroup.glsl). Of hardware, the longest submission that no operating system's watchdog minds.
+constexpr std::uint32_t kSoftwarePart = 16384, kHardwarePart = 262144;
+constexpr std::uint32_t kFewerWithShadows = 8;  // a shadow ray takes some dozens of turns
 
 constexpr const char* kTransfer = "transfer";
 
@@ -287,10 +287,13 @@ void VulkanEngine::clear_outputs(const VulkanFrame& frame, ShadingOutputs& out) 
 }
 
 Result<VulkanShaded> VulkanEngine::shade(const VulkanFrame& frame) {
+  const bool makes_view = frame.made_here != nullptr && frame.view != view_;
+  if (makes_view) {  // before the clock: to build and send the scene is no part of a frame
+    if (Status sent = send_scene(frame.scene); !sent) return sent.error();
+  }
   const auto start = std::chrono::steady_clock::now();
   passes_ms_ = {{"light_range", 0.0}, {"culling_and_shading", 0.0}};
   if (back_->has_filter() && frame.filter) passes_ms_.emplace_back("filtering", 0.0);
-  const bool makes_view = frame.made_here != nullptr && frame.view != view_;
   if (frame.made_here != nullptr) {
     if (Status made = make_view(frame.view, frame.scene, *frame.made_here); !made) return made.error();
   }

@@ -21,7 +21,7 @@ ShadingPush push;
 
 #include "real_time/shading/tile_lists.glsl"
 #include "real_time/shading/pixel_sums.glsl"
-#include "benchmarks/shading_variants/tile_loop.glsl"
+#include "real_time/shading/tile_loop.glsl"
 
 layout(local_size_x = kThreads) in;
 

@@ -20,7 +20,7 @@ void list_by_atomics(SubsetRange subset, uint first, uint end, TileHalves halves
 }
 
 #define LIST_LIGHTS list_by_atomics
-#include "benchmarks/shading_variants/tile_loop.glsl"
+#include "real_time/shading/tile_loop.glsl"
 
 void main() {
   const TilePixel pixel = read_pixel(gl_WorkGroupID);

@@ -29,7 +29,7 @@ Reflection reflection_in_half(FixedDirectionBrdf f, vec3 other) {
 
 #define reflection reflection_in_half  // at pixels: the lobes of lights are in the text above
 #include "benchmarks/shading_variants/variant.glsl"
-#include "benchmarks/shading_variants/tile_loop.glsl"
+#include "real_time/shading/tile_loop.glsl"
 
 void main() {
   const TilePixel pixel = read_pixel(gl_WorkGroupID);

@@ -51,18 +51,18 @@ Status check(gpu::Device& device, DeviceStage& stage, const VirtualPointLights& 
              const std::vector<Variant>& variants, SceneTimes& scene) {
   const std::uint32_t longest = std::max<std::uint32_t>(1, stage.longest_subset(kDiffuseLights));
   const DoubleReference reference(stage, vpls, kMostPairs / (2 * longest));
-  Sums engine;
+  Sums of_first;
   for (const Variant& variant : variants) {
     Result<Sums> sums = sums_of(device, stage, variant);
     if (!sums) return sums.error();
-    if (engine.empty()) {
-      engine = *sums;
-      scene.error_of_float = reference.median_error(engine);
+    if (of_first.empty()) {
+      of_first = *sums;
+      scene.error_of_float = reference.median_error(of_first);
     }
     if (variant.agreement == Agreement::half_precision) scene.error_of_half = reference.median_error(*sums);
     VariantTimes result{variant.name, variant.what, {}, {}, {}};
-    for (std::size_t k = 0; k < engine.size(); ++k) {
-      result.light.push_back(compare(stage.geometry(), engine[k], (*sums)[k]));
+    for (std::size_t k = 0; k < of_first.size(); ++k) {
+      result.light.push_back(compare(stage.geometry(), of_first[k], (*sums)[k]));
       const std::string wrong = complaint(result.light.back());
       if (wrong.empty()) continue;
       return Error{ErrorKind::failed, "'" + variant.name + "' gives other light in '" + scene.scene + "': " + wrong};
@@ -87,22 +87,22 @@ Result<SceneTimes> measure(gpu::Device& device, const PreparedStage& prepared, s
   if (Status s = check(device, **stage, prepared.lights, variants->tried, scene); !s) return s.error();
 
   const std::size_t count = variants->tried.size();
-  std::vector<std::array<std::vector<double>, kLightKinds + 1>> ms(count), to_engine(count);
+  std::vector<std::array<std::vector<double>, kLightKinds + 1>> ms(count), to_first(count);
   for (std::uint32_t round = 0; round < kWarmUps + frames; ++round) {
-    Times engine{};
+    Times first{};
     for (std::size_t v = 0; v < count; ++v) {
       const Result<Times> times = run(device, **stage, variants->tried[v]);
       if (!times) return times.error();
-      if (v == 0) engine = *times;
+      if (v == 0) first = *times;
       for (std::size_t k = 0; k <= kAll && round >= kWarmUps; ++k) {
-        if ((*times)[k] == 0 || engine[k] == 0) continue;
-        ms[v][k].push_back((*times)[k]), to_engine[v][k].push_back((*times)[k] / engine[k]);
+        if ((*times)[k] == 0 || first[k] == 0) continue;
+        ms[v][k].push_back((*times)[k]), to_first[v][k].push_back((*times)[k] / first[k]);
       }
     }
   }
   for (std::size_t v = 0; v < count; ++v) {
     for (std::size_t k = 0; k <= kAll; ++k) {
-      scene.variants[v].ms[k] = median(ms[v][k]), scene.variants[v].to_engine[k] = median(to_engine[v][k]);
+      scene.variants[v].ms[k] = median(ms[v][k]), scene.variants[v].to_first[k] = median(to_first[v][k]);
     }
   }
   return scene;

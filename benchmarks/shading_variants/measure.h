@@ -13,7 +13,7 @@ namespace luciole {
 struct VariantTimes {
   std::string name, what;
   // Medians over the frames; by kind of light and, last, of all kinds. No kinds apart: only the last.
-  std::array<double, kLightKinds + 1> ms{}, to_engine{};
+  std::array<double, kLightKinds + 1> ms{}, to_first{};
   std::vector<Comparison> light;  // by kind
 };
 
@@ -21,13 +21,13 @@ struct SceneTimes {
   std::string scene;
   Settings settings;
   std::vector<LightKind> kinds;                               // of which the scene has lights
-  std::vector<VariantTimes> variants;                         // the engine's kernel first
+  std::vector<VariantTimes> variants;                         // lights by pixel first
   std::vector<std::pair<std::string, std::string>> left_out;  // name, why
   double error_of_float = 0, error_of_half = 0;               // medians against double; 0: not known
 };
 
 // Shades all variants once, to check their light and so that drivers compile; then `frames` rounds of one after the
-// other. An error if a variant gives other light than the engine's kernel.
+// other. An error if a variant gives other light than the first.
 Result<SceneTimes> measure(gpu::Device& device, const PreparedStage& scene, std::uint32_t frames);
 
 }  // namespace luciole

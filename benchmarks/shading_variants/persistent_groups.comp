@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "benchmarks/shading_variants/variant.glsl"
-#include "benchmarks/shading_variants/tile_loop.glsl"
+#include "real_time/shading/tile_loop.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Counter { uint taken; };
 

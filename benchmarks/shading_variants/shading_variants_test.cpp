@@ -104,7 +104,7 @@ TEST(ShadingVariants, list_other_lights_where_they_should) {
     }
     return sum;
   };
-  const double engine = listed("engine");
+  const double engine = listed("lights by pixel");
   EXPECT_EQ(listed("lights staged"), engine);
   EXPECT_EQ(listed("split kernels"), engine);
   EXPECT_LT(listed("tiles of 8x8"), engine);

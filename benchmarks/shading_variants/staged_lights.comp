@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "benchmarks/shading_variants/variant.glsl"
-#include "benchmarks/shading_variants/emitter_words.glsl"
+#include "real_time/shading/emitter_words.glsl"
 
 const uint kStage = 64u;                    // lights of a list at a time: 16 KiB
 shared float staged[2][kStage * 32u];       // 32: the words of the largest emitter
@@ -32,7 +32,7 @@ void shade_staged(inout ShadedPixel shaded, TilePixel pixel, TileHalves halves, 
 }
 
 #define SHADE_LIGHTS shade_staged
-#include "benchmarks/shading_variants/tile_loop.glsl"
+#include "real_time/shading/tile_loop.glsl"
 
 void main() {
   const TilePixel pixel = read_pixel(gl_WorkGroupID);

@@ -8,15 +8,17 @@
 
 namespace luciole {
 
-extern const gpu::ShaderCode staged_lights, shuffled_lights, subgroup_lists, shuffled_subgroup_lists, split_culling,
-    split_shading, depth_masks, depth_masks_and_halves, appended_by_atomics, small_tiles, batches_of_256,
-    batches_of_512, small_tiles_shuffled, half_precision, persistent_groups, all_kinds;
+extern const gpu::ShaderCode staged_lights, subgroup_lists, subgroup_lists_by_subgroup, split_culling, split_shading,
+    depth_masks, depth_masks_and_halves, appended_by_atomics, small_tiles, batches_of_256, batches_of_512,
+    small_tiles_by_subgroup, half_precision, persistent_groups, all_kinds;
 
 namespace {
 
 // Software Vulkan has 65,535 turns of loops for an invocation. At subgroups of four a tile takes some 640 of them and a
 // light up to 1.3, which makes 48,000 for the eight tiles of a persistent workgroup.
 constexpr std::uint32_t kLongestOnSoftware = 4096, kTilesEach = 8;
+
+constexpr const char* kNoShuffles = "the device cannot shuffle within subgroups";
 
 using Kernels = std::array<gpu::Kernel, kLightKinds>;
 using SharedKernels = std::shared_ptr<Kernels>;
@@ -46,7 +48,8 @@ class Maker {
  public:
   Maker(gpu::Device& device, DeviceStage& stage) : device_(device), stage_(stage) {}
 
-  Status add_engine();
+  // The engine's own kernels.
+  Status add_engine(LightReads reads);
   // One dispatch of one kernel per kind of light.
   Status add_kernel(const gpu::ShaderCode& code, const Variant& variant, std::uint32_t tile_side = 16);
   Status add_split();
@@ -62,7 +65,8 @@ class Maker {
     variant.record = std::move(record);
     made_.tried.push_back(std::move(variant));
   }
-  Status add_pass(const Variant& variant, const Settings& settings, std::shared_ptr<const DeviceLights> lights);
+  Status add_pass(const Variant& variant, const Settings& settings, LightReads reads,
+                  std::shared_ptr<const DeviceLights> lights);
 
   gpu::Device& device_;
   DeviceStage& stage_;
@@ -70,8 +74,9 @@ class Maker {
 };
 
 // The engine's own pass, which may read other lights than the stage's.
-Status Maker::add_pass(const Variant& variant, const Settings& settings, std::shared_ptr<const DeviceLights> lights) {
-  Result<TileShadingPass> made = TileShadingPass::create(device_, settings);
+Status Maker::add_pass(const Variant& variant, const Settings& settings, LightReads reads,
+                       std::shared_ptr<const DeviceLights> lights) {
+  Result<TileShadingPass> made = TileShadingPass::create(device_, settings, reads);
   if (!made) return made.error();
   auto pass = std::make_shared<const TileShadingPass>(std::move(*made));
   add(variant, [pass, lights, &stage = stage_](gpu::CommandList& list, LightKind kind) {
@@ -82,9 +87,13 @@ Status Maker::add_pass(const Variant& variant, const Settings& settings, std::sh
   return Done{};
 }
 
-Status Maker::add_engine() {
-  return add_pass({"engine", "`shade_tiles.comp` as the engine runs it", Agreement::bits, false, nullptr},
-                  stage_.settings(), nullptr);
+Status Maker::add_engine(LightReads reads) {
+  const bool by_pixel = reads == LightReads::by_pixel;
+  std::string what = by_pixel ? "each pixel reads each light of its list"
+                              : "each invocation reads another light of the list and hands it to its subgroup";
+  if (reads == faster_light_reads(description())) what += "; so does the engine on this device";
+  return add_pass({by_pixel ? "lights by pixel" : "lights by subgroup", what, Agreement::bits, false, nullptr},
+                  stage_.settings(), reads, nullptr);
 }
 
 Status Maker::add_bounds(BoundingVolume bounds, TileTest test) {
@@ -93,8 +102,8 @@ Status Maker::add_bounds(BoundingVolume bounds, TileTest test) {
   Result<DeviceLights> lights = stage_.make_lights(settings);
   if (!lights) return lights.error();
   const std::string name = name_of(bounds) + " bounds, " + name_of(test) + " test";
-  return add_pass({name, "the engine's kernel with these settings", Agreement::bits, false, nullptr}, settings,
-                  std::make_shared<const DeviceLights>(std::move(*lights)));
+  return add_pass({name, "lights by pixel with these settings", Agreement::bits, false, nullptr}, settings,
+                  LightReads::by_pixel, std::make_shared<const DeviceLights>(std::move(*lights)));
 }
 
 Status Maker::add_kernel(const gpu::ShaderCode& code, const Variant& variant, std::uint32_t tile_side) {
@@ -184,10 +193,8 @@ struct KernelVariant {
 
 const KernelVariant kKernelVariants[] = {
     {&staged_lights, "lights staged", "all invocations copy the next 64 lights of both lists to shared memory"},
-    {&shuffled_lights, "lights shuffled", "each invocation reads one light, shuffles hand it to its subgroup",
-     Agreement::bits, 16, true},
     {&subgroup_lists, "subgroup lists", "each subgroup takes of the tile's list what reaches the box of its pixels"},
-    {&shuffled_subgroup_lists, "subgroup lists, shuffled", "both", Agreement::bits, 16, true},
+    {&subgroup_lists_by_subgroup, "subgroup lists, lights by subgroup", "both", Agreement::bits, 16, true},
     {&depth_masks, "depth mask", "32 depth slices with a surface or not, one list per tile, instead of two halves"},
     {&depth_masks_and_halves, "depth masks and halves", "a mask of slices for each half beside the halves"},
     {&appended_by_atomics, "atomics", "lists are appended by counters in shared memory, in any order",
@@ -195,7 +202,7 @@ const KernelVariant kKernelVariants[] = {
     {&batches_of_256, "batches of 256", "lists of a fourth of the memory"},
     {&batches_of_512, "batches of 512", "lists of half the memory"},
     {&small_tiles, "tiles of 8x8", "workgroups of 64", Agreement::bits, 8},
-    {&small_tiles_shuffled, "tiles of 8x8, shuffled", "both", Agreement::bits, 8, true},
+    {&small_tiles_by_subgroup, "tiles of 8x8, lights by subgroup", "both", Agreement::bits, 8, true},
     {&half_precision, "half precision", "the pixel's Fresnel reflectance in half precision", Agreement::half_precision,
      16, false, true},
 };
@@ -203,7 +210,7 @@ const KernelVariant kKernelVariants[] = {
 Status add_kernels(Maker& maker) {
   for (const KernelVariant& k : kKernelVariants) {
     if (k.shuffles && !maker.description().shuffles) {
-      maker.leave_out(k.name, "the device cannot shuffle within subgroups");
+      maker.leave_out(k.name, kNoShuffles);
     } else if (k.half_floats && !maker.description().half_floats) {
       maker.leave_out(k.name, "the device has no arithmetic in half precision");
     } else if (Status s = maker.add_kernel(*k.code, {k.name, k.what, k.agreement, false, nullptr}, k.tile_side); !s) {
@@ -232,7 +239,12 @@ Status check(const gpu::Device& device, const DeviceStage& stage) {
 Result<Variants> make_variants(gpu::Device& device, DeviceStage& stage) {
   if (Status able = check(device, stage); !able) return able.error();
   Maker maker(device, stage);
-  Status done = maker.add_engine();
+  Status done = maker.add_engine(LightReads::by_pixel);
+  if (device.description().shuffles) {
+    if (done) done = maker.add_engine(LightReads::by_subgroup);
+  } else {
+    maker.leave_out("lights by subgroup", kNoShuffles);
+  }
   if (done) done = add_kernels(maker);
   if (done) done = maker.add_split();
   if (done) done = maker.add_persistent();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ways to cull and shade on a device, each one idea away from the engine's kernel (real_time/shading/shade_tiles.comp),
-// which is the first of them.
+// Ways to cull and shade on a device. The first two are the engine's (real_time/shading/shade_tiles.comp), which takes
+// the one that suits the device; the others are one idea away from the first.
 #pragma once
 #include <functional>
 #include <string>

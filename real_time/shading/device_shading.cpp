@@ -25,7 +25,7 @@ Result<DeviceShading> DeviceShading::create(gpu::Device& device, const Settings&
     if (!lists) return lists.error();
     shading.lists_ = std::move(*lists);
   } else {
-    Result<TileShadingPass> tiles = TileShadingPass::create(device, settings);
+    Result<TileShadingPass> tiles = TileShadingPass::create(device, settings, faster_light_reads(device.description()));
     if (!tiles) return tiles.error();
     shading.tiles_ = std::move(*tiles);
   }

@@ -64,10 +64,10 @@ class ListStage {
   }
 
   // The same by the pass of tiled culling, or without culling.
-  Shaded shade_tiles(LightKind kind, Culling culling) const {
+  Shaded shade_tiles(LightKind kind, Culling culling, LightReads reads = LightReads::by_pixel) const {
     Settings other = settings;
     other.culling = culling;
-    const Result<TileShadingPass> pass = TileShadingPass::create(*device, other);
+    const Result<TileShadingPass> pass = TileShadingPass::create(*device, other, reads);
     EXPECT_TRUE(pass.has_value());
     gpu::CommandList list = gpu::test::make_list(*device);
     list.begin_pass("tiles");

@@ -24,29 +24,15 @@ layout(push_constant, scalar) uniform Push {
 
 #include "real_time/shading/tile_lists.glsl"
 #include "real_time/shading/pixel_sums.glsl"
+#if defined(LUCIOLE_LIGHTS_BY_SUBGROUP)
+#include "real_time/shading/lights_by_subgroup.glsl"
+#define SHADE_LIGHTS shade_by_subgroup
+#endif
+#include "real_time/shading/tile_loop.glsl"
 
 layout(local_size_x = kThreads) in;
 
 void main() {
   const TilePixel pixel = read_pixel(gl_WorkGroupID);
-  const TileHalves halves = halve(pixel);
-  uint lights_of_half[2] = uint[2](0u, 0u);
-  ShadedPixel shaded = start_pixel(pixel.record);
-  if (push.first_light > 0u && pixel.is_surface) take_earlier_sums(shaded, pixel.index);
-  const SubsetRange subset = subset_of(gl_WorkGroupID.z);
-  const uint end = min(subset.count, push.first_light + push.light_count);
-  const SidePlanes sides = side_planes(halves.tile);
-  const bool any_surface = halves.pixels[0] + halves.pixels[1] > 0u;
-  for (uint batch = push.first_light; any_surface && batch < end; batch += kBatch) {
-    uint counts[2] = uint[2](0u, 0u);
-    list_lights(subset, batch, min(end, batch + kBatch), halves, sides, counts);
-    const uint length = pixel.is_surface ? counts[halves.half_of_pixel] : 0u;
-    for (uint i = 0u; i < length; ++i) add_light(shaded, subset.begin + listed[halves.half_of_pixel][i]);
-    lights_of_half[0] += halves.pixels[0] > 0u ? counts[0] : 0u;
-    lights_of_half[1] += halves.pixels[1] > 0u ? counts[1] : 0u;
-    barrier();  // the next batch writes the lists anew
-  }
-  write_counts(gl_WorkGroupID, gl_NumWorkGroups, halves, lights_of_half, shaded.accepted,
-               any_surface && kCulled != 0u ? end : 0u);
-  write_sums(pixel, shaded, lights_of_half[halves.half_of_pixel]);
+  shade_tile(gl_WorkGroupID, gl_NumWorkGroups, pixel, halve(pixel));
 }

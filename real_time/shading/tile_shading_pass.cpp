@@ -5,14 +5,24 @@
 
 namespace luciole {
 
-extern const gpu::ShaderCode shade_tiles;
-extern const gpu::ShaderCode shade_tiles_with_shadows;
+extern const gpu::ShaderCode shade_tiles, shade_tiles_by_subgroup, shade_tiles_with_shadows;
 
 namespace {
 
 void copy(Vec3 from, float (&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
 
+const gpu::ShaderCode& code_of(LightReads reads, bool shadows) {
+  if (shadows) return shade_tiles_with_shadows;
+  return reads == LightReads::by_pixel ? shade_tiles : shade_tiles_by_subgroup;
+}
+
 }  // namespace
+
+// Software Vulkan reads a light lane by lane, even if all lanes read the same one. Hardware reads that once, and which
+// way is faster there is for a measurement to say: benchmarks/gpu.sh times both.
+LightReads faster_light_reads(const gpu::DeviceDescription& device) {
+  return device.kind == gpu::DeviceKind::cpu && device.shuffles ? LightReads::by_subgroup : LightReads::by_pixel;
+}
 
 TileGrid tile_grid(std::uint32_t width, std::uint32_t height, std::uint32_t interleave) {
   const std::uint32_t side = kTileSide * interleave;
@@ -38,12 +48,12 @@ ShadingPush shading_push(const ShadingBuffers& buffers, const GeometryBuffer& ge
   return push;
 }
 
-Result<TileShadingPass> TileShadingPass::create(gpu::Device& device, const Settings& settings) {
+Result<TileShadingPass> TileShadingPass::create(gpu::Device& device, const Settings& settings, LightReads reads) {
   TileShadingPass pass;
   pass.interleave_ = settings.interleave;
   for (const LightKind kind : {kDiffuseLights, kGlossyLights, kManyLights}) {
     const bool shadows = settings.direct_shadows && kind == kManyLights;
-    Result<gpu::Kernel> kernel = gpu::Kernel::create(device, shadows ? shade_tiles_with_shadows : shade_tiles,
+    Result<gpu::Kernel> kernel = gpu::Kernel::create(device, code_of(reads, shadows),
                                                      shadows ? sizeof(ShadowedShadingPush) : sizeof(ShadingPush),
                                                      shading_constants(settings, kind));
     if (!kernel) return kernel.error();

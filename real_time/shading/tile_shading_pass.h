@@ -42,9 +42,19 @@ ShadingPush shading_push(const ShadingBuffers& buffers, const GeometryBuffer& ge
 // The values of its specialisation constants.
 std::vector<std::uint32_t> shading_constants(const Settings& settings, LightKind kind);
 
+// How the lights of a tile's lists reach its pixels. The sums have the same bits. With shadow rays it is by pixel: they
+// take far longer than to read a light.
+enum class LightReads : std::uint8_t {
+  by_pixel,    // each pixel reads each light
+  by_subgroup  // each invocation of a subgroup reads another one and hands it to all; for devices that shuffle
+};
+
+// The faster of them, where it was measured: docs/results/llvmpipe/shading_variants.md.
+LightReads faster_light_reads(const gpu::DeviceDescription& device);
+
 class TileShadingPass {
  public:
-  static Result<TileShadingPass> create(gpu::Device& device, const Settings& settings);
+  static Result<TileShadingPass> create(gpu::Device& device, const Settings& settings, LightReads reads);
 
   // Records one part of the lights of one kind; parts follow each other from 0 on, with a barrier between them.
   void record(gpu::CommandList& list, LightKind kind, const ShadingBuffers& buffers, const GeometryBuffer& geometry,

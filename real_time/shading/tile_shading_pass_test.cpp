@@ -172,6 +172,22 @@ TEST(ShadingOnTheDevice, is_the_same_in_parts_of_any_length) {
   }
 }
 
+// More lights than one part may have: each light of each part takes turns of the loops that software Vulkan counts.
+TEST(ShadingOnTheDevice, of_parts_as_long_as_they_may_be_loses_no_light) {
+  Settings settings = small_settings(1);
+  settings.width = settings.height = 24, settings.vpls = 40000, settings.culling = Culling::none;
+  const Front front("recipe:cornell?glossy=0.1", settings);
+  const auto engine = open_engine(settings);
+  if (engine->device().kind == gpu::DeviceKind::cpu) {
+    ASSERT_GT(front.vpls.size(), engine->largest_part());
+  }
+  const ShadingOutputs whole = shade_on(*engine, front, settings);
+  const ShadingOutputs parts = shade_on(*open_engine(settings, 1000), front, settings);
+  EXPECT_TRUE(same_bits(whole.radiance.indirect, parts.radiance.indirect));
+  EXPECT_EQ(whole.diffuse.accepted, parts.diffuse.accepted);
+  EXPECT_GT(whole.diffuse.accepted, 0);
+}
+
 // The tile test of the device lists what the CPU's lists, but for ties.
 TEST(CullingOnTheDevice, lists_what_the_cpu_lists) {
   for (const TileTest test : {TileTest::paper, TileTest::exact, TileTest::tight}) {

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each invocation of a subgroup reads one light of the list; shuffles hand them to all. With SUBGROUP_LISTS each
-// invocation also asks whether its light reaches the box round the subgroup's pixels, so that only those that do are
-// added: a finer list per subgroup, as the CPU makes one per 16 pixels. With SHUFFLES lights are handed over, else read.
+// Each invocation of a subgroup asks whether a light of the list reaches the box round the subgroup's pixels, so that
+// only those that do are added: a finer list per subgroup, as the CPU makes one per 16 pixels. With LUCIOLE_LIGHTS_BY_SUBGROUP the
+// invocation that asked hands the light to all (lights_by_subgroup.glsl), else each reads it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "benchmarks/shading_variants/variant.glsl"
-#include "benchmarks/shading_variants/emitter_words.glsl"
-#if defined(SHUFFLES)
-#extension GL_KHR_shader_subgroup_shuffle : require
-#endif
+#include "real_time/shading/emitter_words.glsl"
 
 struct Box {
   vec3 middle, extent;  // view space, half its sides [m]
@@ -31,8 +28,8 @@ bool reaches(uint entry, Box box) {
   return dot(gap, gap) <= 1.0002 && highest > bound_row(entry, kNormalOffset);
 }
 
-void shade_by_subgroup(inout ShadedPixel shaded, TilePixel pixel, TileHalves halves, SubsetRange subset,
-                       uint counts[2]) {
+void shade_by_finer_lists(inout ShadedPixel shaded, TilePixel pixel, TileHalves halves, SubsetRange subset,
+                          uint counts[2]) {
   for (uint h = 0u; h < 2u; ++h) {
     const bool mine = pixel.is_surface && halves.half_of_pixel == h;
     if (subgroupBallot(mine) == uvec4(0u)) continue;
@@ -40,21 +37,17 @@ void shade_by_subgroup(inout ShadedPixel shaded, TilePixel pixel, TileHalves hal
     for (uint first = 0u; first < counts[h]; first += gl_SubgroupSize) {
       const uint i = first + gl_SubgroupInvocationID;
       const uint entry = subset.begin + listed[h][min(i, counts[h] - 1u)];
-      bool chosen = i < counts[h];
-#if defined(SUBGROUP_LISTS)
-      if (chosen) chosen = reaches(entry, box);
-#endif
-#if defined(SHUFFLES)
-      float own[kMostUsed];
+      const bool chosen = i < counts[h] && reaches(entry, box);
+#if defined(LUCIOLE_LIGHTS_BY_SUBGROUP)
+      float own[kMostUsed], w[kMostUsed];
       read_words(entry, own);
 #endif
       const uvec4 all = subgroupBallot(chosen);
       for (uint word = 0u; word < 4u; ++word) {
         for (uint bits = all[word]; bits != 0u; bits &= bits - 1u) {
           const uint from = 32u * word + uint(findLSB(bits));
-#if defined(SHUFFLES)
-          float w[kMostUsed];
-          for (uint k = 0u; k < kMostUsed; ++k) w[k] = k < kUsedWords ? subgroupShuffle(own[k], from) : 0.0;
+#if defined(LUCIOLE_LIGHTS_BY_SUBGROUP)
+          words_from(from, own, w);
           if (mine) add_light_of_words(shaded, w);
 #else
           if (mine) add_light(shaded, subset.begin + listed[h][first + from]);
@@ -65,8 +58,8 @@ void shade_by_subgroup(inout ShadedPixel shaded, TilePixel pixel, TileHalves hal
   }
 }
 
-#define SHADE_LIGHTS shade_by_subgroup
-#include "benchmarks/shading_variants/tile_loop.glsl"
+#define SHADE_LIGHTS shade_by_finer_lists
+#include "real_time/shading/tile_loop.glsl"
 
 void main() {
   const TilePixel pixel = read_pixel(gl_WorkGroupID);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emitters as words, for variants that carry them through shared memory or between the invocations of a subgroup.
+// Emitters as words, which go through shared memory or between the invocations of a subgroup. Included after
+// pixel_sums.glsl, with LUCIOLE_LIGHTS_BY_SUBGROUP where they go from one invocation to another.
+#ifndef LUCIOLE_EMITTER_WORDS_GLSL
+#define LUCIOLE_EMITTER_WORDS_GLSL
 
 const uint kEmitterWords = kKind == 0u ? 24u : kKind == 1u ? 32u : 16u;  // from one to the next, in memory
 const uint kMostUsed = 25u;
@@ -24,6 +27,8 @@ ManyEmitter many_emitter(float w[kMostUsed]) {
   return ManyEmitter(THREE(0), THREE(3), THREE(6), w[9], w[10], w[11], w[12], w[13], w[14], w[15]);
 }
 
+#undef THREE
+
 void add_light_of_words(inout ShadedPixel pixel, float w[kMostUsed]) {
   if (kKind == 0u) {
     const DiffuseEmitter light = diffuse_emitter(w);
@@ -42,3 +47,13 @@ void read_words(uint entry, out float w[kMostUsed]) {
   for (uint i = 0u; i < kMostUsed; ++i) w[i] = 0.0;
   for (uint i = 0u; i < kUsedWords; ++i) w[i] = Words(push.emitters).value[entry * kEmitterWords + i];
 }
+
+#if defined(LUCIOLE_LIGHTS_BY_SUBGROUP)
+#extension GL_KHR_shader_subgroup_shuffle : require
+// The emitter that another invocation of the subgroup has read. Shuffles, as on llvmpipe a broadcast takes twice as long.
+void words_from(uint invocation, float own[kMostUsed], out float w[kMostUsed]) {
+  for (uint i = 0u; i < kMostUsed; ++i) w[i] = i < kUsedWords ? subgroupShuffle(own[i], invocation) : 0.0;
+}
+#endif
+
+#endif
