@@ -20,9 +20,9 @@ endfunction()
 
 # luciole_seldom_runs(target|source.cpp ...)
 # Options, JSON and expectations, from header-only libraries, run once: compiling them for speed takes longer than they ever
-# run. Not for what computes.
+# run. Not for what computes: in a target of these, a source that does takes back its -O3.
 function(luciole_seldom_runs)
-  set(level -O1)
+  set(level $<$<CONFIG:Release>:-O1>)
   if(LUCIOLE_SANITIZE)
     set(level -O0)
   endif()

@@ -185,7 +185,7 @@ TEST(VulkanFrame, whose_device_is_lost_while_it_filters_is_filtered_by_the_cpu) 
   const Front front("recipe:cornell?glossy=0.1", settings);
   const Result<Frame> cpu = render(front, settings);
   settings.engine = Engine::vulkan;
-  settings.lost_from_submission = 4;  // after ranges and two kinds of lights
+  settings.lost_from_submission = 5;  // after the edges of codes, ranges and two kinds of lights
   const Result<Frame> device = render(front, settings);
   ASSERT_TRUE(device.has_value()) << device.error().message;
   EXPECT_EQ(device->statistics.engine, "cpu");

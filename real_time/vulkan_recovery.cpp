@@ -27,6 +27,8 @@ Result<std::optional<VulkanRecovery>> VulkanRecovery::chosen_by(Settings& settin
   request.wanted = settings.device;
   request.hardware_only = automatic;
   request.validation = settings.vulkan_validation;
+  request.in_kernels =
+      settings.front == Front::rays || settings.front == Front::cpu;  // they would fail drawing falsely
   request.lost_from_submission = settings.lost_from_submission;
   Result<VulkanRecovery> vulkan = VulkanRecovery::create(settings, request);
   if (!vulkan && !automatic) return vulkan.error();

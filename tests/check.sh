@@ -110,8 +110,8 @@ reproduce_quick() {
   tail -n 1 out/reproduce-quick.log
 }
 
-# Each access of each kernel that makes a view on the device, which software Vulkan compiles for minutes, if it does not
-# optimise. Other kernels are checked so by ./do test.
+# Each access of each kernel of a frame that is made on the device by rays, which software Vulkan compiles for minutes even if
+# it does not optimise.
 validated_front() {
   [[ -x build/luciole ]] || ./do build || return 1
   mkdir -p out

@@ -5,25 +5,31 @@
 namespace luciole::test {
 namespace {
 
-// Interleaved frames have the view that the device made; the others one that was sent.
-class UnbiasedOnTheDevice : public testing::TestWithParam<std::tuple<const char*, std::uint32_t>> {};
+struct Way {
+  std::uint32_t interleave;
+  Front front;  // cpu: the view is sent; rays: the device makes it
+};
+
+// The CPU's prediction for what `way` renders, of the same pixels and lights.
+Settings to_render(Way way) {
+  Settings settings = test_settings(way.interleave);
+  settings.engine = Engine::vulkan, settings.front = way.front;
+  return settings;
+}
+Settings to_expect(Way way) { return way.front == Front::cpu ? test_settings(way.interleave) : to_render(way); }
+
+class UnbiasedOnTheDevice : public testing::TestWithParam<std::tuple<const char*, Way>> {};
 
 TEST_P(UnbiasedOnTheDevice, mean_over_random_ranges_is_the_sum_over_all_lights) {
-  const auto& [address, interleave] = GetParam();
-  Settings expected = test_settings(interleave);
-  Settings rendered = expected;
-  rendered.engine = Engine::vulkan, rendered.front = Front::cpu;
-  if (interleave > 1) {
-    rendered.front = Front::rays;
-    expected = rendered;  // the CPU's prediction, of the same pixels and lights
-  }
-  const ZTestReport report = test_frames(stage(address), expected, rendered);
+  const auto& [address, way] = GetParam();
+  const ZTestReport report = test_frames(stage(address), to_expect(way), to_render(way));
   EXPECT_TRUE(report.passed) << address << ": " << report.reason;
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, UnbiasedOnTheDevice,
                          testing::Combine(testing::Values("recipe:cornell?glossy=0.1", "recipe:ring?alpha=0.1"),
-                                          testing::Values(1u, 8u)));
+                                          testing::Values(Way{1, Front::cpu}, Way{8, Front::cpu},
+                                                          Way{8, Front::rays})));
 
 // Every light everywhere, without roulette or interleaving: what the device adds up is what the CPU does.
 TEST(ReferenceOnTheDevice, is_the_mean_that_is_expected) {
@@ -44,10 +50,11 @@ TEST(ReferenceOnTheDevice, is_the_mean_that_is_expected) {
 }
 
 TEST(UnbiasedOnTheDevice, clamped_ranges_are_rejected) {
-  const Settings settings = test_settings(8);
-  Settings clamped = settings;
-  clamped.ranges = Ranges::clamped, clamped.engine = Engine::vulkan;
-  EXPECT_FALSE(test_frames(stage("recipe:cornell?glossy=0.1"), settings, clamped).passed);
+  for (const Front front : {Front::cpu, Front::rays}) {
+    Settings clamped = to_render({8, front});
+    clamped.ranges = Ranges::clamped;
+    EXPECT_FALSE(test_frames(stage("recipe:cornell?glossy=0.1"), to_expect({8, front}), clamped).passed);
+  }
 }
 
 }  // namespace
