@@ -35,6 +35,14 @@ function(luciole_seldom_runs)
   endforeach()
 endfunction()
 
+# Slow tests begin first, so that none is left over that runs alone while other processors wait.
+function(luciole_label test label)
+  set_tests_properties(${test} PROPERTIES LABELS ${label})
+  if(label STREQUAL "statistical")
+    set_tests_properties(${test} PROPERTIES COST 1000)
+  endif()
+endfunction()
+
 # luciole_test(name SOURCES a_test.cpp LINK luciole_image ... [LABEL statistical] [ONE_THREAD])
 # One test program; its label is `unit` (fast) unless it is said to be `statistical` (slow, still in ./do test; not built
 # with sanitizers, under which ./do check runs units alone). ONE_THREAD: what it tests starts no other, so that the thread
@@ -52,7 +60,7 @@ function(luciole_test name)
   endif()
   luciole_test_program(${name} SOURCES ${TEST_SOURCES} LINK ${TEST_LINK})
   add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES LABELS ${TEST_LABEL})
+  luciole_label(${name} ${TEST_LABEL})
 endfunction()
 
 # luciole_device_test(name SOURCES a_test.cpp LINK luciole_gpu ... [LABEL statistical] [WIDTHS 8])
@@ -85,8 +93,8 @@ function(luciole_device_test name)
   foreach(width ${TEST_WIDTHS})
     math(EXPR bits "${width} * 32")
     add_test(NAME ${name}_width_${width} COMMAND ${name})
+    luciole_label(${name}_width_${width} ${TEST_LABEL})
     set_tests_properties(${name}_width_${width} PROPERTIES
-      LABELS ${TEST_LABEL}
       ENVIRONMENT "LP_NATIVE_VECTOR_WIDTH=${bits};ASAN_OPTIONS=detect_leaks=0;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/shader_cache")
   endforeach()
 endfunction()
