@@ -8,18 +8,8 @@ function(luciole_room name)
   target_link_libraries(luciole_${name} PUBLIC luciole_flags ${ROOM_LINK} PRIVATE ${ROOM_PRIVATE_LINK})
 endfunction()
 
-# luciole_test_program(name SOURCES a_test.cpp LINK luciole_image ...)
-# A program of tests. It finds bundled data and scratch space by LUCIOLE_SOURCE_DIR and LUCIOLE_SCRATCH_DIR.
-function(luciole_test_program name)
-  cmake_parse_arguments(TEST "" "" "SOURCES;LINK" ${ARGN})
-  add_executable(${name} ${TEST_SOURCES})
-  target_link_libraries(${name} PRIVATE luciole_flags ${TEST_LINK} GTest::gtest GTest::gtest_main)
-  target_compile_definitions(${name} PRIVATE LUCIOLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                                             LUCIOLE_SCRATCH_DIR="${CMAKE_CURRENT_BINARY_DIR}")
-endfunction()
-
 # luciole_seldom_runs(target|source.cpp ...)
-# Options, JSON and expectations, from header-only libraries, run once: compiling them for speed takes longer than they ever
+# Options and JSON, from header-only libraries, run once: compiling them for speed takes longer than they ever
 # run. Not for what computes: in a target of these, a source that does takes back its -O3.
 function(luciole_seldom_runs)
   set(level $<$<CONFIG:Release>:-O1>)
@@ -33,6 +23,27 @@ function(luciole_seldom_runs)
       set_source_files_properties(${item} PROPERTIES COMPILE_OPTIONS ${level})
     endif()
   endforeach()
+endfunction()
+
+# luciole_test_main: what all test programs link. They are compiled in one way, so that GoogleTest's header is compiled once for
+# all of them; and not for speed, as most of their time is that of the rooms.
+function(luciole_test_main)
+  find_package(GTest REQUIRED)
+  add_library(luciole_test_main STATIC ${PROJECT_SOURCE_DIR}/tests/main.cpp)
+  target_link_libraries(luciole_test_main PUBLIC luciole_flags GTest::gtest)
+  target_compile_options(luciole_test_main PUBLIC $<$<CONFIG:Release>:-O1> PRIVATE -fPIE)  # programs are, libraries are not
+  target_precompile_headers(luciole_test_main PRIVATE <gtest/gtest.h>)
+endfunction()
+
+# luciole_test_program(name SOURCES a_test.cpp LINK luciole_image ...)
+# A program of tests. It finds bundled data and scratch space by LUCIOLE_SOURCE_DIR and LUCIOLE_SCRATCH_DIR.
+function(luciole_test_program name)
+  cmake_parse_arguments(TEST "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${TEST_SOURCES})
+  target_link_libraries(${name} PRIVATE luciole_test_main ${TEST_LINK})
+  target_precompile_headers(${name} REUSE_FROM luciole_test_main)
+  target_compile_definitions(${name} PRIVATE LUCIOLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                                             LUCIOLE_SCRATCH_DIR="${CMAKE_CURRENT_BINARY_DIR}")
 endfunction()
 
 # Slow tests begin first, so that none is left over that runs alone while other processors wait.

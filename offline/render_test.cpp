@@ -118,7 +118,7 @@ TEST(PathTracer, samplers_agree_among_sixty_thousand_lights) {
   const std::shared_ptr<const Scene> scene = recipe("recipe:lamps?count=60000");
   const auto runs_of = [&](LightChoice lights) {
     PathSettings settings = small(1, lights);
-    settings.width = 24, settings.height = 12;
+    settings.width = 16, settings.height = 9;
     return independent_runs(scene, settings, kFewRuns, kSamplesPerRun);
   };
   const Runs truth = runs_of(LightChoice::exhaustive);

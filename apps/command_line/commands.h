@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program's commands. Each adds itself to the parser and remembers what to run once the line is understood.
 #pragma once
-#include <CLI/CLI.hpp>
 #include <functional>
 
 #include "base/result.h"
+
+namespace CLI {
+class App;  // the header takes seconds to compile
+}
 
 namespace luciole {
 

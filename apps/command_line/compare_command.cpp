@@ -2,6 +2,7 @@
 // luciole compare: how far a picture is from a reference, and where.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>

@@ -2,6 +2,7 @@
 // luciole devices: what Vulkan has on this machine, and what render would take of it.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "apps/command_line/commands.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // luciole info: what is in a scene, and what a shot of it would have to know.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 

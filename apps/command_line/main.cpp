@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program: understands the command line, runs one command, and turns its outcome into one sentence and an exit
 // code.
+#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <new>

@@ -2,6 +2,7 @@
 // luciole make: a recipe's scene as a glTF file or for pbrt, for other programs.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <map>
 #include <memory>

@@ -2,6 +2,7 @@
 // luciole merge: the parts of a picture become the picture, as if one run had rendered all samples.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <utility>

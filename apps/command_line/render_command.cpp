@@ -3,6 +3,7 @@
 // (path_run.h has the other method).
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>
 #include <optional>

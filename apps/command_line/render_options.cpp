@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/command_line/render_options.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "apps/command_line/shot_settings.h"

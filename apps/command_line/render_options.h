@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `luciole render` was asked for, as typed. Values of settings are checked with those of the shot.
 #pragma once
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,6 +8,10 @@
 
 #include "apps/command_line/progress.h"
 #include "base/setting_table.h"
+
+namespace CLI {
+class App;  // the header takes seconds to compile
+}
 
 namespace luciole {
 

@@ -2,6 +2,7 @@
 // luciole report: pages for a browser: pictures held against a reference, or the figures of ./do reproduce.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

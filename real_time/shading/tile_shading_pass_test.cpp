@@ -175,7 +175,7 @@ TEST(ShadingOnTheDevice, is_the_same_in_parts_of_any_length) {
 // More lights than one part may have: each light of each part takes turns of the loops that software Vulkan counts.
 TEST(ShadingOnTheDevice, of_parts_as_long_as_they_may_be_loses_no_light) {
   Settings settings = small_settings(1);
-  settings.width = settings.height = 24, settings.vpls = 40000, settings.culling = Culling::none;
+  settings.width = settings.height = 16, settings.vpls = 40000, settings.culling = Culling::none;
   const Front front("recipe:cornell?glossy=0.1", settings);
   const auto engine = open_engine(settings);
   if (engine->device().kind == gpu::DeviceKind::cpu) {
