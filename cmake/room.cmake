@@ -8,21 +8,19 @@ function(luciole_room name)
   target_link_libraries(luciole_${name} PUBLIC luciole_flags ${ROOM_LINK} PRIVATE ${ROOM_PRIVATE_LINK})
 endfunction()
 
-# How code is compiled that runs too seldom to be worth the time that optimising it takes.
-set(LUCIOLE_SELDOM_LEVEL $<$<CONFIG:Release>:-O1>)
-if(LUCIOLE_SANITIZE)
-  set(LUCIOLE_SELDOM_LEVEL -O0)
-endif()
-
 # luciole_seldom_runs(target|source.cpp ...)
-# Options and JSON, from header-only libraries, run once: compiling them for speed takes longer than they ever
-# run. Not for what computes: in a target of these, a source that does takes back its -O3.
+# Options and JSON, from header-only libraries, run once: compiling them for speed takes longer than they ever run.
+# Not for what computes: in a target of these, a source that does takes back its -O3.
 function(luciole_seldom_runs)
+  set(level $<$<CONFIG:Release>:-O1>)
+  if(LUCIOLE_SANITIZE)
+    set(level -O0)
+  endif()
   foreach(item ${ARGN})
     if(TARGET ${item})
-      target_compile_options(${item} PRIVATE ${LUCIOLE_SELDOM_LEVEL})
+      target_compile_options(${item} PRIVATE ${level})
     elseif(item MATCHES "\\.cpp$")
-      set_source_files_properties(${item} PROPERTIES COMPILE_OPTIONS ${LUCIOLE_SELDOM_LEVEL})
+      set_source_files_properties(${item} PROPERTIES COMPILE_OPTIONS ${level})
     endif()
   endforeach()
 endfunction()
@@ -33,7 +31,7 @@ function(luciole_test_main)
   find_package(GTest REQUIRED)
   add_library(luciole_test_main STATIC ${PROJECT_SOURCE_DIR}/tests/main.cpp)
   target_link_libraries(luciole_test_main PUBLIC luciole_flags GTest::gtest)
-  target_compile_options(luciole_test_main PUBLIC ${LUCIOLE_SELDOM_LEVEL} PRIVATE -fPIE)  # programs are, libraries are not
+  target_compile_options(luciole_test_main PUBLIC $<$<CONFIG:Release>:-O1> PRIVATE -fPIE)  # programs are, libraries are not
   target_precompile_headers(luciole_test_main PRIVATE <gtest/gtest.h>)
 endfunction()
 
